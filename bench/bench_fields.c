@@ -125,8 +125,8 @@ static double state_error(const field_case *c, const alp_field *field)
     double squares = 0.0;
     for (uint32_t i = 0; i < c->count; i++) {
         float error = 0.0f;
-        alp_field_errors(field, 1, (const float(*)[3])&c->positions[i],
-                         (const float(*)[3])&c->normals[i], &error);
+        alp_field_errors(field, 1, (const float(*)[3]) & c->positions[i],
+                         (const float(*)[3]) & c->normals[i], &error);
         squares += (double)error * (double)error;
     }
     return sqrt(squares / c->count);

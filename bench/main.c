@@ -50,7 +50,7 @@ int main(int count, char **words)
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
                     "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
-                     "sh, probes, fields, formats, --quick, "
+                    "sh, probes, fields, formats, --quick, "
                     "--markdown, --scene NAME, --technique NAME\n",
                     words[i]);
             return EXIT_USAGE;

@@ -14,8 +14,7 @@ static alp_result measure(const alp_scene *scene, const alp_probes *probes)
     static const float normals[2][3] = {{0.0f, 1.0f, 0.0f}, {0.0f, -1.0f, 0.0f}};
     float by_probes[2][3], by_paths[2][3];
     alp_field *field = NULL;
-    alp_result result =
-        alp_field_create_probes(probes, ALP_LOOKUP_OURS, NULL, NULL, &field);
+    alp_result result = alp_field_create_probes(probes, ALP_LOOKUP_OURS, NULL, NULL, &field);
     if (result == ALP_OK) {
         alp_field_irradiance(field, 2, positions, normals, by_probes); // any thread, no allocation
         result = alp_reference_irradiance(scene, NULL, 2, positions, normals, by_paths, NULL);

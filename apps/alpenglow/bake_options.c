@@ -123,8 +123,8 @@ static int check_light(const option_value *values, bool light, bool occlusion)
 /// The bits of alp_map of --maps, whose choices are numbered in their order.
 static unsigned listed_maps(unsigned choices)
 {
-    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT, ALP_MAP_LIGHT, ALP_MAP_SH,
-                                   ALP_MAP_DIRECTION, ALP_MAP_PROBES};
+    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT,      ALP_MAP_LIGHT,
+                                   ALP_MAP_SH, ALP_MAP_DIRECTION, ALP_MAP_PROBES};
     unsigned bits = 0;
     for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
         bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;

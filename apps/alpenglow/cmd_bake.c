@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
 #include "bake_options.h"
-#include "findings.h"
 #include "fields.h"
+#include "findings.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"
@@ -57,8 +57,8 @@ static int bake(session *s, const command_line *a, alp_bake_options *o)
         work_print(stderr, &work);
     }
     alp_probe_options probes;
-    int code = probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin,
-                                  &probes);
+    int code =
+        probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin, &probes);
     if (code != EXIT_DONE) {
         return code;
     }

@@ -48,16 +48,16 @@ static alp_result export_probes(const command_line *a, const alp_probes *probes)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
     const size_t length = strlen(output);
-    const size_t stem = length - strlen(path_ends(output, ".probes.json") ? ".probes.json" : ".json");
+    const size_t stem =
+        length - strlen(path_ends(output, ".probes.json") ? ".probes.json" : ".json");
     if (!a->values[OPTION_EXPORT].given) {
         return ALP_OK;
     }
-    char *path = allocate_or_exit(NULL, length + sizeof ".three.mjs");
-    memcpy(path, output, stem);
-    strcpy(path + stem, ".three.mjs");
-    const alp_result result =
-        alp_probes_export_three(probes, path, a->values[OPTION_EXPORT_SCALE].real,
-                                a->values[OPTION_FORCE].given);
+    const size_t size = length + sizeof ".three.mjs";
+    char *path = allocate_or_exit(NULL, size);
+    snprintf(path, size, "%.*s.three.mjs", (int)stem, output);
+    const alp_result result = alp_probes_export_three(
+        probes, path, a->values[OPTION_EXPORT_SCALE].real, a->values[OPTION_FORCE].given);
     free(path);
     return result;
 }

@@ -351,8 +351,7 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     o->progress_user = s;
     field_source source = {NULL, NULL};
     interrupt_defer();
-    const int made =
-        o->method == ALP_RENDER_FIELD ? make_field(s, a, o, &source) : EXIT_DONE;
+    const int made = o->method == ALP_RENDER_FIELD ? make_field(s, a, o, &source) : EXIT_DONE;
     if (made != EXIT_DONE) {
         field_source_clear(&source);
         return made;

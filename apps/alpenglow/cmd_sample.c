@@ -56,11 +56,10 @@ static int trace_reference(session *s, const command_line *a, const alp_lighting
     o.seed = a->values[OPTION_SEED].whole;
     o.progress = session_progress;
     o.progress_user = s;
-    const int code = session_end(
-        s, alp_reference_irradiance(s->scene, &o, points->count,
-                                    (const float(*)[3])points->positions,
-                                    (const float(*)[3])points->normals, out->irradiance,
-                                    out->deviations));
+    const int code = session_end(s, alp_reference_irradiance(s->scene, &o, points->count,
+                                                             (const float(*)[3])points->positions,
+                                                             (const float(*)[3])points->normals,
+                                                             out->irradiance, out->deviations));
     for (uint32_t i = 0; i < points->count; i++) {
         const float *d = out->deviations[i];
         out->errors[i] = sqrtf((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / 3.0f);
@@ -112,16 +111,14 @@ static void print_points(const point_list *points, const sampled *out)
 static int sample(session *s, const command_line *a, const alp_lighting_options *lighting,
                   const point_list *points)
 {
-    sampled out = {.irradiance = calloc(points->count, sizeof *out.irradiance),
-                   .deviations = calloc(points->count, sizeof *out.deviations),
-                   .errors = calloc(points->count, sizeof *out.errors)};
-    int code = out.irradiance == NULL || out.deviations == NULL || out.errors == NULL ? failure("out of memory") : EXIT_DONE;
-    if (code == EXIT_DONE) {
-        interrupt_defer();
-        code = a->values[OPTION_WITH].choice == WITH_REFERENCE
+    const size_t count = points->count;
+    sampled out = {.irradiance = allocate_or_exit(NULL, count * sizeof *out.irradiance),
+                   .deviations = allocate_or_exit(NULL, count * sizeof *out.deviations),
+                   .errors = allocate_or_exit(NULL, count * sizeof *out.errors)};
+    interrupt_defer();
+    int code = a->values[OPTION_WITH].choice == WITH_REFERENCE
                    ? trace_reference(s, a, lighting, points, &out)
                    : read_field(s, a, lighting, points, &out);
-    }
     if (code == EXIT_DONE) {
         print_points(points, &out);
         code = session_judge_warnings(s);

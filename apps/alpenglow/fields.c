@@ -17,8 +17,7 @@ static int read_bounds(const command_line *a, const double origin[3], alp_probe_
     }
     const char *end = number_parse_list(bounds->text, n, NUMBERS);
     if (end == NULL || *end != '\0') {
-        return usage_error(a->command,
-                           "--bounds: '%s' is no box; give X0,Y0,Z0,X1,Y1,Z1 in metres",
+        return usage_error(a->command, "--bounds: '%s' is no box; give X0,Y0,Z0,X1,Y1,Z1 in metres",
                            bounds->text);
     }
     for (int k = 0; k < 3; k++) {
@@ -104,8 +103,7 @@ int field_probes(session *s, const command_line *a, const alp_lighting_options *
     alp_result result = file->given ? load_probes(s, file->text, &info, &source->probes)
                                     : alp_probes_bake(s->scene, &o, &source->probes);
     if (result == ALP_OK) {
-        result = alp_field_create_probes(source->probes, lookup, info.origin, NULL,
-                                         &source->field);
+        result = alp_field_create_probes(source->probes, lookup, info.origin, NULL, &source->field);
     }
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
 }

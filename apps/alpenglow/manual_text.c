@@ -50,19 +50,22 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                       {"Compare the maps of two assets:",
                        "alpenglow compare baked.glb baked.glb --map ao"}}},
     [COMMAND_SAMPLE] =
-        {.failed = "The scene, POINTS or the probes could not be read, or nothing lights the scene.",
+        {.failed =
+             "The scene, POINTS or the probes could not be read, or nothing lights the scene.",
          .files = {{"SCENE", "Scene to measure, or a built-in scene."},
                    {"POINTS.csv", "Points: a line x,y,z,nx,ny,nz each."},
                    {"FILE.probes.json", "Probes, as alpenglow probes writes them."}},
-         .examples = {{"Measure the light above the floor of a room, by path tracing:",
-                       "echo 0.28,0.1,0.2,0,1,0 | alpenglow sample builtin:cornell --with reference "
-                       "--at -"},
-                      {"Measure it by probes 10 cm apart:",
-                       "echo 0.28,0.1,0.2,0,1,0 | alpenglow sample builtin:cornell --with probes "
-                       "--spacing 0.1 --at -"}}},
+         .examples =
+             {{"Measure the light above the floor of a room, by path tracing:",
+               "echo 0.28,0.1,0.2,0,1,0 | alpenglow sample builtin:cornell --with reference "
+               "--at -"},
+              {"Measure it by probes 10 cm apart:",
+               "echo 0.28,0.1,0.2,0,1,0 | alpenglow sample builtin:cornell --with probes "
+               "--spacing 0.1 --at -"}}},
     [COMMAND_PROBES] =
-        {.failed = "The scene or POINTS could not be read, nothing lights the scene, there would be "
-                   "too many probes, or the files could not be written.",
+        {.failed =
+             "The scene or POINTS could not be read, nothing lights the scene, there would be "
+             "too many probes, or the files could not be written.",
          .files = {{"SCENE", "Scene to bake, or a built-in scene."},
                    {"OUT.probes.json", "Grid, units, content and quality of the probes."},
                    {"OUT.probes.ktx2", "Their light."},

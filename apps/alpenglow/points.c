@@ -45,8 +45,7 @@ static int refuse(const char *path, unsigned long line, const char *text)
 static const char *fault_of(const double *numbers, int count, int wanted)
 {
     if (count < wanted) {
-        return wanted == COLUMNS ? "need six numbers: x,y,z,nx,ny,nz"
-                                 : "need three numbers: x,y,z";
+        return wanted == COLUMNS ? "need six numbers: x,y,z,nx,ny,nz" : "need three numbers: x,y,z";
     }
     for (int k = 0; k < wanted; k++) {
         if (!isfinite(numbers[k]) || fabs(numbers[k]) > 1e15) {
@@ -60,23 +59,20 @@ static const char *fault_of(const double *numbers, int count, int wanted)
     return NULL;
 }
 
-static bool grow(point_list *p, bool normals, uint32_t *room)
+static void grow(point_list *p, bool normals, uint32_t *room)
 {
     if (p->count < *room) {
-        return true;
+        return;
     }
-    const uint32_t more = *room > 0 ? 2 * *room : 256;
-    void *positions = realloc(p->positions, more * sizeof *p->positions);
-    p->positions = positions != NULL ? positions : p->positions;
-    void *texts = realloc(p->texts, more * sizeof *p->texts);
-    p->texts = texts != NULL ? texts : p->texts;
-    void *directions = normals ? realloc(p->normals, more * sizeof *p->normals) : NULL;
-    p->normals = directions != NULL ? directions : p->normals;
-    *room = more;
-    return positions != NULL && texts != NULL && (directions != NULL || !normals);
+    *room = *room > 0 ? 2 * *room : 256;
+    p->positions = allocate_or_exit(p->positions, *room * sizeof *p->positions);
+    p->texts = allocate_or_exit(p->texts, *room * sizeof *p->texts);
+    if (normals) {
+        p->normals = allocate_or_exit(p->normals, *room * sizeof *p->normals);
+    }
 }
 
-static bool keep(point_list *p, const double *numbers, const double origin[3], const char *line,
+static void keep(point_list *p, const double *numbers, const double origin[3], const char *line,
                  const char *end)
 {
     const uint32_t i = p->count;
@@ -90,9 +86,11 @@ static bool keep(point_list *p, const double *numbers, const double origin[3], c
             p->normals[i][k] = (float)(numbers[3 + k] / length);
         }
     }
-    p->texts[i] = strndup(line, (size_t)(end - line));
-    p->count += p->texts[i] != NULL ? 1 : 0;
-    return p->texts[i] != NULL;
+    const size_t size = (size_t)(end - line);
+    p->texts[i] = allocate_or_exit(NULL, size + 1);
+    memcpy(p->texts[i], line, size);
+    p->texts[i][size] = '\0';
+    p->count++;
 }
 
 static int read_lines(FILE *file, const char *path, bool normals, const double origin[3],
@@ -105,7 +103,7 @@ static int read_lines(FILE *file, const char *path, bool normals, const double o
     int code = EXIT_DONE;
     for (unsigned long number = 1; code == EXIT_DONE && getline(&line, &size, file) >= 0;
          number++) {
-        double numbers[COLUMNS];
+        double numbers[COLUMNS] = {0.0};
         const char *start = line + strspn(line, " \t\r\n"), *end = start;
         if (*start == '\0' || *start == '#' || (points->count == 0 && is_header(start))) {
             continue;
@@ -115,9 +113,9 @@ static int read_lines(FILE *file, const char *path, bool normals, const double o
         if (fault == NULL && points->count == POINT_LIMIT) {
             fault = "too many points; split the file";
         }
-        if (fault == NULL && (!grow(points, normals, &room) ||
-                              !keep(points, numbers, origin, start, end))) {
-            fault = "out of memory";
+        if (fault == NULL) {
+            grow(points, normals, &room);
+            keep(points, numbers, origin, start, end);
         }
         code = fault != NULL ? refuse(path, number, fault) : EXIT_DONE;
     }

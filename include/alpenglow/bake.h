@@ -288,9 +288,9 @@ typedef struct alp_bake_options {
     const alp_probe_options *probes;
     alp_maps_format maps_format; ///< of maps_folder; else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
-    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "probes"; "denoise"; "dilation"; "seams";
-    /// "write". With ALP_ATLAS_VERTEX: "vertices", "build", "occlusion", "detail", "write". Short
-    /// stages may be skipped.
+    /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "probes"; "denoise"; "dilation";
+    /// "seams"; "write". With ALP_ATLAS_VERTEX: "vertices", "build", "occlusion", "detail",
+    /// "write". Short stages may be skipped.
     alp_progress_fn *progress;
     void *progress_user;
 } alp_bake_options;

@@ -29,7 +29,8 @@ ALP_API void alp_field_irradiance(const alp_field *field, uint32_t count,
 
 /// Expected error of a field at points: root mean square over the channels, W·m⁻².
 ///   ambient models  that at the points which they were fitted at, the same everywhere
-///   probes          √(noise² + f² (v² + (.03 E)²)), with v the RMS change of E within a quarter of a
+///   probes          √(noise² + f² (v² + (.03 E)²)), with v the RMS change of E within a quarter of
+///   a
 ///                   cell along the axes, and f as measured at points that took no part in the bake
 ///   a list          its noise alone
 /// @param errors [count] out; 0 where it is not known
@@ -42,8 +43,8 @@ ALP_API void alp_field_errors(const alp_field *field, uint32_t count, const floa
 typedef enum alp_ambient_model {
     ALP_AMBIENT_CONSTANT = 0, ///< E = c
     ALP_AMBIENT_HEMISPHERE,   ///< E = up (1 + n·y)/2 + down (1 − n·y)/2
-    /// E = up (1 + n·y)/2 + (down + s g(x, z)) (1 − n·y)/2. The ground map g holds the radiosity B of
-    /// the first front side below the top of the scene, in 64 × 64 texels over its bounds. The
+    /// E = up (1 + n·y)/2 + (down + s g(x, z)) (1 − n·y)/2. The ground map g holds the radiosity B
+    /// of the first front side below the top of the scene, in 64 × 64 texels over its bounds. The
     /// factor s is fitted for each channel.
     ALP_AMBIENT_GROUND_MAP,
     ALP_AMBIENT_CUBE,        ///< E = Σ n_i² c(±axis i), six colours
@@ -94,10 +95,10 @@ ALP_API alp_reference_options alp_reference_options_default(void);
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; a position
 ///         or normal that is not finite, or a normal that is 0: the message names its index);
 ///         OUT_OF_MEMORY; CANCELLED
-ALP_API ALP_NODISCARD alp_result alp_reference_irradiance(
-    const alp_scene *scene, const alp_reference_options *options, uint32_t count,
-    const float (*positions)[3], const float (*normals)[3], float (*irradiance)[3],
-    float (*errors)[3]);
+ALP_API ALP_NODISCARD alp_result
+alp_reference_irradiance(const alp_scene *scene, const alp_reference_options *options,
+                         uint32_t count, const float (*positions)[3], const float (*normals)[3],
+                         float (*irradiance)[3], float (*errors)[3]);
 
 /// Random points in the free air of a scene, with random normals: points inside its bounds from
 /// which at most a quarter of the sphere shows black backs of surfaces.

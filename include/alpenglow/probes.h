@@ -42,12 +42,12 @@ typedef struct alp_probe_options {
     /// The light of each lamp and sun is stored apart too, so that a host can dim it; default
     /// false. At most 15 get a layer, in the order of the lights: a warning says so (many-layers).
     bool layers;
-    bool direct;     ///< light straight from punctual lamps and suns is in it; default false
-    uint32_t rays;   ///< of each probe, [384, 1572864], rounded up to 4 × 6 × (4 k)²; default 1536
+    bool direct;   ///< light straight from punctual lamps and suns is in it; default false
+    uint32_t rays; ///< of each probe, [384, 1572864], rounded up to 4 × 6 × (4 k)²; default 1536
     alp_lighting_options lighting; ///< beside the lights of the file
     uint32_t bounces;              ///< default ALP_BOUNCES_CONVERGE
-    bool one_sided;     ///< rays pass single-sided surfaces from behind; default false
-    uint32_t atlas_size; ///< texels along a page of the radiosity; default 512
+    bool one_sided;                ///< rays pass single-sided surfaces from behind; default false
+    uint32_t atlas_size;           ///< texels along a page of the radiosity; default 512
     uint64_t seed;
     alp_progress_fn *progress; ///< stages "atlas", "validity", "light", "probes"
     void *progress_user;
@@ -78,13 +78,13 @@ typedef struct alp_probes_info {
     uint32_t coefficients; ///< of each probe: 9, 4 or 6
     uint32_t layers;
     bool visibility, gradients, direct;
-    uint32_t states[4];   ///< probes by alp_probe_state
-    float error;          ///< stated: √(mean of squared standard errors of E) / mean E
-    float interpolation;  ///< estimated: RMS error of E between probes, W·m⁻²; 0 = not known
-    float mean;           ///< mean E over probes and normals, W·m⁻²
-    uint32_t rays;        ///< of each probe
-    uint64_t bytes;       ///< in memory, for look-ups
-    uint64_t scene_hash;  ///< of the scene that they were baked in
+    uint32_t states[4];  ///< probes by alp_probe_state
+    float error;         ///< stated: √(mean of squared standard errors of E) / mean E
+    float interpolation; ///< estimated: RMS error of E between probes, W·m⁻²; 0 = not known
+    float mean;          ///< mean E over probes and normals, W·m⁻²
+    uint32_t rays;       ///< of each probe
+    uint64_t bytes;      ///< in memory, for look-ups
+    uint64_t scene_hash; ///< of the scene that they were baked in
 } alp_probes_info;
 ALP_API alp_probes_info alp_probes_get_info(const alp_probes *probes);
 
@@ -136,8 +136,7 @@ typedef enum alp_probe_lookup {
 ALP_API ALP_NODISCARD alp_result alp_field_create_probes(const alp_probes *probes,
                                                          alp_probe_lookup lookup,
                                                          const double origin[3],
-                                                         const float *strengths,
-                                                         alp_field **field);
+                                                         const float *strengths, alp_field **field);
 
 ALP_END_DECLS
 

@@ -102,10 +102,10 @@ typedef struct alp_render_options {
     /// REFERENCE, RADIOSITY, HEMICUBE, and the background of LIGHTMAP. HEMISPHERE uses its sky,
     /// always of two colours; default there: up 1, down 0.
     alp_lighting_options lighting;
-    uint32_t bounces;   ///< REFERENCE, RADIOSITY, HEMICUBE: 0 = direct light alone; default
-                        ///< ALP_BOUNCES_CONVERGE
-    bool no_next_event; ///< REFERENCE: rays are never aimed at lights. A slow cross-check that
-                        ///< never finds lights without extent.
+    uint32_t bounces;       ///< REFERENCE, RADIOSITY, HEMICUBE: 0 = direct light alone; default
+                            ///< ALP_BOUNCES_CONVERGE
+    bool no_next_event;     ///< REFERENCE: rays are never aimed at lights. A slow cross-check that
+                            ///< never finds lights without extent.
     const alp_field *field; ///< FIELD: made of this scene's light
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from
     /// punctual lamps and suns. Default false.
@@ -130,7 +130,8 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// @param image out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match; LIGHTMAP without a map of
 ///         light; FIELD without a field; an object without a radius; REFERENCE, RADIOSITY, and
-///         HEMICUBE with light, of a scene without lamp, emission and sky); OUT_OF_MEMORY; CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
+///         HEMICUBE with light, of a scene without lamp, emission and sky); OUT_OF_MEMORY;
+///         CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,
                                             const alp_render_options *options, alp_image **image);
 

@@ -64,10 +64,8 @@ static alp_result trace_points(const alp_scene *scene, const alp_reference_optio
                                       .next_event = true,
                                       .seed = o->seed};
     const alpi_receivers receivers = alpi_point_array_receivers(points);
-    const alpi_task_progress progress = {.callback = o->progress,
-                                         .user = o->progress_user,
-                                         .stage = stage,
-                                         .units_are_rays = true};
+    const alpi_task_progress progress = {
+        .callback = o->progress, .user = o->progress_user, .stage = stage, .units_are_rays = true};
     return alpi_reference_irradiance(&reference, &receivers, NULL, 0, &progress, values);
 }
 
@@ -105,11 +103,11 @@ static alp_result check_points(const alp_scene *scene, uint32_t count, const flo
     for (uint32_t i = 0; i < count; i++) {
         const vec3 p = vec3_load(positions[i]), n = vec3_load(normals[i]);
         if (!vec3_is_finite(p) || !vec3_is_finite(n) || !(vec3_length(n) > 0.0f)) {
-            return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
-                             "point %u: position %g %g %g, normal %g %g %g: need finite numbers and "
-                             "a normal of some length",
-                             i, (double)p.x, (double)p.y, (double)p.z, (double)n.x, (double)n.y,
-                             (double)n.z);
+            return alpi_fail(
+                scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                "point %u: position %g %g %g, normal %g %g %g: need finite numbers and "
+                "a normal of some length",
+                i, (double)p.x, (double)p.y, (double)p.z, (double)n.x, (double)n.y, (double)n.z);
         }
     }
     return ALP_OK;

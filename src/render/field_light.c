@@ -19,62 +19,74 @@ static uint32_t key_of(const float position[3])
     return alpi_hash32(bits[0] ^ alpi_hash32(bits[1] ^ alpi_hash32(bits[2])));
 }
 
-/// Adds what one sample of a light brings to the points, with shadows.
-static void add_lamp(const alpi_field_light *l, uint32_t lamp, uint32_t sample, float share,
-                     uint32_t count, const float (*positions)[3], const float (*normals)[3],
-                     const float *offsets, float (*irradiance)[3])
-{
-    alpi_trace_filter filter = l->filter;
+/// A sample of a light at some points, as shadow rays.
+typedef struct lamp_rays {
     alpi_rays rays;
-    vec3 light[ALPI_PACKET], left[ALPI_PACKET];
-    uint32_t active = 0, open = 0;
-    filter.panes = alpi_tracer_has_panes(l->tracer);
-    alpi_rays_clear(&rays);
-    for (uint32_t i = 0; i < count; i++) {
+    uint32_t active;
+    vec3 light[ALPI_PACKET]; // that they bring
+} lamp_rays;
+
+static void aim_lamp(const alpi_field_light *l, uint32_t lamp, uint32_t sample, float share,
+                     const alpi_field_points *points, lamp_rays *to)
+{
+    alpi_rays_clear(&to->rays);
+    to->active = 0;
+    for (uint32_t i = 0; i < points->count; i++) {
         alpi_light_sample s;
-        const vec3 p = vec3_load(positions[i]), n = vec3_load(normals[i]);
-        const vec2 u = alpi_sample_2d(key_of(positions[i]), sample);
-        left[i] = (vec3){1.0f, 1.0f, 1.0f};
+        const vec3 p = vec3_load(points->positions[i]), n = vec3_load(points->normals[i]);
+        const vec2 u = alpi_sample_2d(key_of(points->positions[i]), sample);
         if (!alpi_lighting_sample_light(l->lamps, lamp, p, u, &s)) {
             continue;
         }
-        const float cosine = vec3_dot(n, s.direction);
-        const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * offsets[i];
+        const float offset = points->offsets[i], cosine = vec3_dot(n, s.direction);
+        const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * offset;
         if (cosine > 0.0f && reach > 0.0f) {
-            light[i] = vec3_scale(s.light, cosine * share / s.density);
-            alpi_rays_set(&rays, (int)i, vec3_mad(p, offsets[i], n), s.direction, reach);
-            active |= 1u << i;
+            to->light[i] = vec3_scale(s.light, cosine * share / s.density);
+            alpi_rays_set(&to->rays, (int)i, vec3_mad(p, offset, n), s.direction, reach);
+            to->active |= 1u << i;
         }
-    }
-    if (active == 0) {
-        return;
-    }
-    alpi_trace_occluded(l->tracer, &rays, 1, active, filter, ALPI_RAYS_NEAR);
-    for (uint32_t i = 0; i < count; i++) {
-        open |= (active >> i & 1u) != 0 && rays.maximum[i] >= 0.0f ? 1u << i : 0u;
-    }
-    if (filter.panes && open != 0) {
-        alpi_panes_dim(l->scene, l->tracer, filter, open, &rays, left);
-    }
-    for (; open != 0; open &= open - 1) {
-        const int i = __builtin_ctz(open);
-        irradiance[i][0] += light[i].x * left[i].x;
-        irradiance[i][1] += light[i].y * left[i].y;
-        irradiance[i][2] += light[i].z * left[i].z;
     }
 }
 
-void alpi_field_light_at(const alpi_field_light *l, uint32_t count, const float (*positions)[3],
-                         const float (*normals)[3], const float *offsets, float (*irradiance)[3])
+/// Adds the light of rays that nothing stops.
+static void add_free(const alpi_field_light *l, lamp_rays *to, float (*irradiance)[3])
+{
+    alpi_trace_filter filter = l->filter;
+    vec3 left[ALPI_PACKET];
+    uint32_t open = 0;
+    filter.panes = alpi_tracer_has_panes(l->tracer);
+    if (to->active == 0) {
+        return;
+    }
+    alpi_trace_occluded(l->tracer, &to->rays, 1, to->active, filter, ALPI_RAYS_NEAR);
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        left[i] = (vec3){1.0f, 1.0f, 1.0f};
+        open |= (to->active >> i & 1u) != 0 && to->rays.maximum[i] >= 0.0f ? 1u << i : 0u;
+    }
+    if (filter.panes && open != 0) {
+        alpi_panes_dim(l->scene, l->tracer, filter, open, &to->rays, left);
+    }
+    for (; open != 0; open &= open - 1) {
+        const int i = __builtin_ctz(open);
+        irradiance[i][0] += to->light[i].x * left[i].x;
+        irradiance[i][1] += to->light[i].y * left[i].y;
+        irradiance[i][2] += to->light[i].z * left[i].z;
+    }
+}
+
+void alpi_field_light_at(const alpi_field_light *l, const alpi_field_points *points,
+                         float (*irradiance)[3])
 {
     const uint32_t lamps = l->lamps != NULL ? alpi_lighting_light_count(l->lamps) : 0;
-    alp_field_irradiance(l->field, count, positions, normals, irradiance);
+    alp_field_irradiance(l->field, points->count, (const float(*)[3])points->positions,
+                         (const float(*)[3])points->normals, irradiance);
     for (uint32_t k = 0; k < lamps; k++) {
         const bool disk = alpi_lighting_light(l->lamps, k)->size > 0.0f;
         const uint32_t samples = disk ? DISK_SAMPLES : 1;
         for (uint32_t s = 0; s < samples; s++) {
-            add_lamp(l, k, s, 1.0f / (float)samples, count, positions, normals, offsets,
-                     irradiance);
+            lamp_rays to;
+            aim_lamp(l, k, s, 1.0f / (float)samples, points, &to);
+            add_free(l, &to, irradiance);
         }
     }
 }
@@ -84,8 +96,8 @@ static void reflect(const void *user, const alpi_surface_point *points, uint32_t
 {
     const alpi_field_light *l = user;
     const alp_scene *scene = l->scene;
-    float positions[ALPI_PACKET][3], normals[ALPI_PACKET][3], e[ALPI_PACKET][3];
-    float offsets[ALPI_PACKET] = {0.0f};
+    alpi_field_points at = {.count = count};
+    float e[ALPI_PACKET][3];
     for (uint32_t i = 0; i < count; i++) {
         alpi_hits hit;
         hit.triangle[0] = points[i].triangle;
@@ -93,19 +105,18 @@ static void reflect(const void *user, const alpi_surface_point *points, uint32_t
         hit.b2[0] = points[i].b2;
         const alpi_receiver_point p =
             alpi_hit_point(scene, &hit, 0, vec3_scale(points[i].toward, -1.0f), NULL);
-        vec3_store(positions[i], p.position);
-        vec3_store(normals[i], p.shading_normal);
-        offsets[i] = p.offset;
+        vec3_store(at.positions[i], p.position);
+        vec3_store(at.normals[i], p.shading_normal);
+        at.offsets[i] = p.offset;
     }
-    alpi_field_light_at(l, count, (const float(*)[3])positions, (const float(*)[3])normals, offsets,
-                        e);
+    alpi_field_light_at(l, &at, e);
     for (uint32_t i = 0; i < count; i++) {
         const alpi_surface_point *p = &points[i];
         const vec3 albedo = alpi_surface_albedo(scene, p->triangle, p->b1, p->b2);
         const float kept = alpi_surface_pane(scene, p->triangle, p->b1, p->b2).kept;
         const float share = kept * (float)(1.0 / ALPI_PI);
-        radiance[i] =
-            (vec3){share * albedo.x * e[i][0], share * albedo.y * e[i][1], share * albedo.z * e[i][2]};
+        radiance[i] = (vec3){share * albedo.x * e[i][0], share * albedo.y * e[i][1],
+                             share * albedo.z * e[i][2]};
     }
 }
 

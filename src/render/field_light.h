@@ -4,8 +4,8 @@
 #ifndef ALPI_RENDER_FIELD_LIGHT_H
 #define ALPI_RENDER_FIELD_LIGHT_H
 
-#include "transport/surface_light.h"
 #include "scene/lights/lighting.h"
+#include "transport/surface_light.h"
 
 #include <alpenglow/field.h>
 
@@ -17,11 +17,15 @@ typedef struct alpi_field_light {
     const alpi_lighting *lamps; // NULL, or whose punctual lights and suns shine
 } alpi_field_light;
 
-enum { ALPI_FIELD_BATCH = ALPI_PACKET };
-/// E [W·m⁻²] at points. @param offsets metres along the normals at which shadow rays start
-/// @param count at most ALPI_FIELD_BATCH
-void alpi_field_light_at(const alpi_field_light *light, uint32_t count, const float (*positions)[3],
-                         const float (*normals)[3], const float *offsets, float (*irradiance)[3]);
+/// Points, at most a packet.
+typedef struct alpi_field_points {
+    uint32_t count;
+    float positions[ALPI_PACKET][3], normals[ALPI_PACKET][3];
+    float offsets[ALPI_PACKET]; // metres along the normals at which shadow rays start
+} alpi_field_points;
+/// E [W·m⁻²] at points. @param irradiance [count] out
+void alpi_field_light_at(const alpi_field_light *light, const alpi_field_points *points,
+                         float (*irradiance)[3]);
 
 /// How gatherers see surfaces that reflect the light.
 alpi_surface_light alpi_field_light_surfaces(const alpi_field_light *light);

@@ -47,7 +47,8 @@ static alp_result build_object(object_job *job)
     const vec3 white = {OBJECT_ALBEDO, OBJECT_ALBEDO, OBJECT_ALBEDO}, black = {0.0f, 0.0f, 0.0f};
     alpi_builder builder;
     alpi_builder_start(&builder, job->pass->scene->context, "object");
-    alpi_builder_surface(&builder, "object", alpi_builder_material(&builder, "white", white, black));
+    alpi_builder_surface(&builder, "object",
+                         alpi_builder_material(&builder, "white", white, black));
     if (o->kind == ALP_OBJECT_SPHERE) {
         alpi_builder_ball(&builder, &(alpi_ball){.center = center,
                                                  .radius = o->radius,
@@ -68,8 +69,8 @@ static float distance_of(const object_job *job, uint32_t probe, vec3 *place)
     double at[3];
     alp_probes_position(job->pass->probes, probe, at);
     const double *origin = job->pass->scene->origin;
-    *place = (vec3){(float)(at[0] - origin[0]), (float)(at[1] - origin[1]),
-                    (float)(at[2] - origin[2])};
+    *place =
+        (vec3){(float)(at[0] - origin[0]), (float)(at[1] - origin[1]), (float)(at[2] - origin[2])};
     const vec3 way = vec3_sub(*place, job->pass->view->origin);
     return vec3_dot(way, way);
 }
@@ -107,7 +108,8 @@ static alp_result build_probes(object_job *job)
     alpi_builder builder;
     ALPI_TRY_NEW(job->pass->scene->context, job->shown, info.count);
     alpi_builder_start(&builder, job->pass->scene->context, "probes");
-    alpi_builder_surface(&builder, "probes", alpi_builder_material(&builder, "white", white, black));
+    alpi_builder_surface(&builder, "probes",
+                         alpi_builder_material(&builder, "white", white, black));
     for (uint32_t i = 0; i < info.count; i++) {
         vec3 place;
         if (distance_of(job, i, &place) < reach) {
@@ -139,8 +141,8 @@ static void light_by_probe(const object_job *job, const object_point *p, float e
     if (state == ALP_PROBE_FILLED || state == ALP_PROBE_INVALID) {
         return;
     }
-    const float *c = alp_probes_coefficients(probes, UINT32_MAX) +
-                     (size_t)p->probe * info.coefficients * 3;
+    const float *c =
+        alp_probes_coefficients(probes, UINT32_MAX) + (size_t)p->probe * info.coefficients * 3;
     alpi_probe_weights((alpi_probe_basis)info.basis, p->normal, weights);
     for (int k = 0; k < 3; k++) {
         e[k] = 0.0f;
@@ -161,12 +163,11 @@ static alp_result light_range(void *user, uint32_t begin, uint32_t end, uint32_t
             light_by_probe(job, p, job->irradiance[i]);
             continue;
         }
-        float position[1][3], normal[1][3];
-        const float offset = alpi_receiver_offset(p->position, NULL);
-        vec3_store(position[0], p->position);
-        vec3_store(normal[0], p->normal);
-        alpi_field_light_at(job->pass->field, 1, (const float(*)[3])position,
-                            (const float(*)[3])normal, &offset, &job->irradiance[i]);
+        alpi_field_points at = {.count = 1};
+        vec3_store(at.positions[0], p->position);
+        vec3_store(at.normals[0], p->normal);
+        at.offsets[0] = alpi_receiver_offset(p->position, NULL);
+        alpi_field_light_at(job->pass->field, &at, &job->irradiance[i]);
     }
     return ALP_OK;
 }
@@ -194,8 +195,8 @@ static alp_result light_points(object_job *job)
     }
     const alpi_receivers receivers = {
         .count = job->count, .place = place_point, .user = job->points};
-    ALP_TRY(alpi_reference_irradiance(pass->reference, &receivers, NULL, 0, &progress,
-                                      job->values));
+    ALP_TRY(
+        alpi_reference_irradiance(pass->reference, &receivers, NULL, 0, &progress, job->values));
     for (uint32_t i = 0; i < job->count; i++) {
         memcpy(job->irradiance[i], job->values[i].mean, sizeof *job->irradiance);
     }
@@ -205,8 +206,7 @@ static alp_result light_points(object_job *job)
 /// Adds the points that were collected to the layer.
 static alp_result add_points(object_job *job)
 {
-    const float share =
-        (job->pass->probes != NULL ? 1.0f : OBJECT_ALBEDO) * (float)(1.0 / ALPI_PI);
+    const float share = (job->pass->probes != NULL ? 1.0f : OBJECT_ALBEDO) * (float)(1.0 / ALPI_PI);
     ALP_TRY(light_points(job));
     for (uint32_t i = 0; i < job->count; i++) {
         float *pixel = (float *)job->layer->pixels + 4 * (size_t)job->points[i].pixel;

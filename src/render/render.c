@@ -99,11 +99,11 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
         return alpi_fail(scene->context, code, "render: there is no field");
     }
     const alp_render_object *object = &o->object;
-    if (object->kind != ALP_OBJECT_NONE &&
-        !(object->radius > 0.0f && isfinite(object->radius) &&
-          vec3_is_finite(vec3_load(object->position)))) {
-        return alpi_fail(scene->context, code, "render: the object needs a finite position and a "
-                                               "radius above 0");
+    if (object->kind != ALP_OBJECT_NONE && !(object->radius > 0.0f && isfinite(object->radius) &&
+                                             vec3_is_finite(vec3_load(object->position)))) {
+        return alpi_fail(scene->context, code,
+                         "render: the object needs a finite position and a "
+                         "radius above 0");
     }
     return alpi_occlusion_check(scene, &o->occlusion);
 }

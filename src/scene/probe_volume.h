@@ -35,12 +35,12 @@ typedef struct alpi_probe_volume {
     bool is_list;         // places are any, not a lattice
     uint32_t count;       // probes; at most UINT32_MAX / 256
     // Lattice: probe (x, y, z) has index x + size[0] (y + size[1] z).
-    uint32_t size[3];     // probes along each axis; list: count, 1, 1
-    double origin[3];     // metres, world of the scene's file: place of probe 0; list: 0
-    float spacing[3];     // metres between neighbours, > 0; list: 0
-    float (*places)[3];   // list: [count] metres, world of the scene's file; lattice: NULL
-    float (*moves)[3];    // [count] metres from its place to where it was sampled; 0 unless MOVED
-    uint8_t *states;      // [count] alpi_probe_state
+    uint32_t size[3];   // probes along each axis; list: count, 1, 1
+    double origin[3];   // metres, world of the scene's file: place of probe 0; list: 0
+    float spacing[3];   // metres between neighbours, > 0; list: 0
+    float (*places)[3]; // list: [count] metres, world of the scene's file; lattice: NULL
+    float (*moves)[3];  // [count] metres from its place to where it was sampled; 0 unless MOVED
+    uint8_t *states;    // [count] alpi_probe_state
     alpi_probe_basis basis;
     uint32_t coefficient_count; // 9, 4 or 6
     float *coefficients;        // [count][coefficient_count][3]
@@ -53,14 +53,14 @@ typedef struct alpi_probe_volume {
     float (*moments)[2]; // [count][64]
     float reach;         // metres
     // Content.
-    bool direct;         // light straight from punctual lamps and suns is in it
-    uint64_t scene_hash; // input_hash of the scene
-    float relative_error;  // stated: √(mean of squared standard errors of E) / mean E; 0 unknown
-    float mean;            // E over probes that have light and normals, W·m⁻²
-    float interpolation;   // RMS error of E between probes, W·m⁻², by points apart; 0 unknown
-    float noise;           // RMS standard error of E at the probes, W·m⁻²
-    float factor;          // of the change of E in a cell, for errors between probes; 0 unknown
-    uint32_t rays;         // of each probe
+    bool direct;          // light straight from punctual lamps and suns is in it
+    uint64_t scene_hash;  // input_hash of the scene
+    float relative_error; // stated: √(mean of squared standard errors of E) / mean E; 0 unknown
+    float mean;           // E over probes that have light and normals, W·m⁻²
+    float interpolation;  // RMS error of E between probes, W·m⁻², by points apart; 0 unknown
+    float noise;          // RMS standard error of E at the probes, W·m⁻²
+    float factor;         // of the change of E in a cell, for errors between probes; 0 unknown
+    uint32_t rays;        // of each probe
     uint64_t seed;
     char *options; // JSON object: what made it, "" or NULL if not known
 } alpi_probe_volume;

@@ -58,8 +58,8 @@ static bool meet(const view *w, int x, int y, vec3 *normal)
 
 /// E/π at the sphere, by the field that render --lookup three reads.
 /// @param offset cells by which probes would be elsewhere
-static void value_at(const alp_field *field, const alpi_probe_volume *v, const view *w,
-                     vec3 normal, float offset, double value[3])
+static void value_at(const alp_field *field, const alpi_probe_volume *v, const view *w, vec3 normal,
+                     float offset, double value[3])
 {
     const vec3 at = vec3_mad(w->center, w->radius, normal);
     const float n[1][3] = {{normal.x, normal.y, normal.z}};

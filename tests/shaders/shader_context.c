@@ -38,8 +38,8 @@ bool shader_context_open(shader_language language)
         fprintf(stderr, "there is no EGL display without a screen\n");
         return false;
     }
-    const EGLContext context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR,
-                                                EGL_NO_CONTEXT, versions[language]);
+    EGLContext context = eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR,
+                                          EGL_NO_CONTEXT, versions[language]);
     if (context == EGL_NO_CONTEXT ||
         !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         fprintf(stderr, "there is no %s context\n", language == SHADER_330 ? "OpenGL 3.3" : "ES 3");
@@ -50,7 +50,7 @@ bool shader_context_open(shader_language language)
 
 void shader_context_close(void)
 {
-    const EGLContext context = eglGetCurrentContext();
+    EGLContext context = eglGetCurrentContext();
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display, context);
     eglTerminate(display);

@@ -126,8 +126,7 @@ static alp_result check_probes(const alpi_bake_job *job)
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     const bool moments = o->probes == NULL || o->probes->visibility;
-    const alp_result result =
-        alpi_probes_check_outputs(job->context, path, moments, o->overwrite);
+    const alp_result result = alpi_probes_check_outputs(job->context, path, moments, o->overwrite);
     alpi_release(job->context, path);
     return result;
 }

@@ -9,8 +9,7 @@ alp_result alpi_light_probes(alpi_bake_job *job, const alpi_surface_light *known
     if ((o->maps & ALP_MAP_PROBES) == 0) {
         return ALP_OK;
     }
-    alp_probe_options options =
-        o->probes != NULL ? *o->probes : alp_probe_options_default();
+    alp_probe_options options = o->probes != NULL ? *o->probes : alp_probe_options_default();
     options.lighting = o->light.lighting;
     options.bounces = o->light.bounces;
     options.one_sided = o->occlusion.one_sided;

@@ -117,9 +117,8 @@ void alpi_ground_map_read(const alpi_ground_map *map, float x, float z, float ra
     const float(*t)[3] = &map->texels[cell[1] * ALPI_GROUND_SIDE + cell[0]];
     for (int k = 0; k < 3; k++) {
         const float near = t[0][k] + part[0] * (t[1][k] - t[0][k]);
-        const float far =
-            t[ALPI_GROUND_SIDE][k] +
-            part[0] * (t[ALPI_GROUND_SIDE + 1][k] - t[ALPI_GROUND_SIDE][k]);
+        const float far = t[ALPI_GROUND_SIDE][k] +
+                          part[0] * (t[ALPI_GROUND_SIDE + 1][k] - t[ALPI_GROUND_SIDE][k]);
         radiosity[k] = near + part[1] * (far - near);
     }
 }

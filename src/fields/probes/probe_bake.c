@@ -55,10 +55,9 @@ static alp_result check(const alp_scene *scene, const alp_probe_options *o)
     }
     for (uint32_t i = 0; i < o->position_count && o->positions != NULL; i++) {
         if (!vec3_is_finite(vec3_load(o->positions[i]))) {
-            return alpi_fail(scene->context, code,
-                             "probes: position %u is %g %g %g: need finite numbers", i,
-                             (double)o->positions[i][0], (double)o->positions[i][1],
-                             (double)o->positions[i][2]);
+            return alpi_fail(
+                scene->context, code, "probes: position %u is %g %g %g: need finite numbers", i,
+                (double)o->positions[i][0], (double)o->positions[i][1], (double)o->positions[i][2]);
         }
     }
     return alpi_lighting_refuse_darkness(scene, &o->lighting);
@@ -70,9 +69,9 @@ typedef struct probe_job {
     const alp_scene *scene;
     const alp_probe_options *o;
     alpi_tracer *tracer;
-    alpi_lighting *lighting;     // all light
-    alpi_lighting *space;        // sky and emissive surfaces: what arrives directly
-    alpi_lighting *soft, *spots; // the same with the soft sky, and with its bright spots
+    alpi_lighting *lighting;         // all light
+    alpi_lighting *space;            // sky and emissive surfaces: what arrives directly
+    alpi_lighting *soft, *spots;     // the same with the soft sky, and with its bright spots
     const alpi_surface_light *given; // NULL, or light that surfaces reflect
     alpi_solution *solution;         // NULL without bounces, or with light that is given
     alpi_surface_light known;        // of either
@@ -119,8 +118,8 @@ static alp_result prepare_sampling(probe_job *job)
         double place[3];
         alpi_probe_place(v, i, place);
         for (int k = 0; k < 3; k++) {
-            s->points[i][k] = v->is_list ? job->o->positions[i][k]
-                                         : (float)(place[k] - job->scene->origin[k]);
+            s->points[i][k] =
+                v->is_list ? job->o->positions[i][k] : (float)(place[k] - job->scene->origin[k]);
         }
     }
     return ALP_OK;
@@ -245,8 +244,8 @@ static alp_result draw_held_out(const probe_job *job, alpi_point_array *points)
         const float share[3] = {at.x, up.x, at.y};
         for (int k = 0; k < 3; k++) {
             const double cells = (double)share[k] * v->size[k] - 0.5;
-            points->positions[i][k] = (float)(v->origin[k] - job->scene->origin[k] +
-                                              (double)v->spacing[k] * cells);
+            points->positions[i][k] =
+                (float)(v->origin[k] - job->scene->origin[k] + (double)v->spacing[k] * cells);
         }
         const vec3 n = alpi_warp_uniform_cone(alpi_sample_2d(normal, i), -1.0f);
         vec3_store(points->shading_normals[i], n);
@@ -306,14 +305,14 @@ static alp_result compare_held_out(const probe_job *job, const alpi_point_array 
     alp_field *field = NULL;
     double sum = 0.0, change = 0.0;
     ALP_TRY(gather_held_out(job, points, values));
-    ALP_TRY(alpi_probe_field_create(job->volume, ALP_LOOKUP_OURS, job->scene->origin, NULL,
-                                    &field));
+    ALP_TRY(
+        alpi_probe_field_create(job->volume, ALP_LOOKUP_OURS, job->scene->origin, NULL, &field));
     alp_field_irradiance(field, points->count, (const float(*)[3])points->positions,
                          (const float(*)[3])points->shading_normals, irradiance);
     const double noise = (double)job->volume->noise;
     for (uint32_t i = 0; i < points->count; i++) {
-        change += 3.0 * alpi_probe_field_change(field, points->positions[i],
-                                                points->shading_normals[i]);
+        change +=
+            3.0 * alpi_probe_field_change(field, points->positions[i], points->shading_normals[i]);
         for (int k = 0; k < 3; k++) {
             const double apart = (double)irradiance[i][k] - (double)values[i].mean[k];
             sum += apart * apart - (double)values[i].variance[k];
@@ -335,8 +334,7 @@ static alp_result state_interpolation(const probe_job *job)
     ALP_TRY(alpi_point_array_create(context, HELD_OUT, &points));
     alpi_reference_value *values = ALPI_NEW(context, alpi_reference_value, HELD_OUT);
     float(*irradiance)[3] = alpi_allocate(context, HELD_OUT, sizeof *irradiance);
-    alp_result result =
-        values != NULL && irradiance != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    alp_result result = values != NULL && irradiance != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
     if (result == ALP_OK) {
         result = draw_held_out(job, &points);
     }
@@ -534,15 +532,15 @@ alp_probes_info alp_probes_get_info(const alp_probes *probes)
     for (uint32_t i = 0; i < v->count; i++) {
         info.states[v->states[i] & 3u]++;
     }
-    info.bytes = (uint64_t)v->count * (floats * sizeof(float) * (v->gradients != NULL ? 4 : 1) + 13 +
-                                       (v->moments != NULL ? 100 * 2 * sizeof(float) : 0));
+    info.bytes = (uint64_t)v->count * (floats * sizeof(float) * (v->gradients != NULL ? 4 : 1) +
+                                       13 + (v->moments != NULL ? 100 * 2 * sizeof(float) : 0));
     return info;
 }
 
 const float *alp_probes_coefficients(const alp_probes *probes, uint32_t layer)
 {
     const alpi_probe_volume *v = &probes->volume;
-    return layer == UINT32_MAX       ? v->coefficients
+    return layer == UINT32_MAX      ? v->coefficients
            : layer < v->layer_count ? v->layers[layer].coefficients
                                     : NULL;
 }

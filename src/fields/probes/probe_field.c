@@ -22,8 +22,8 @@ static void destroy(alp_field *field)
 static void read_lattice(const alp_field *field, uint32_t count, const float (*positions)[3],
                          const float (*normals)[3], float (*irradiance)[3])
 {
-    ALPI_COMPILED_FOR(field->context, alpi_probe_lookup)(field, count, positions, normals,
-                                                         irradiance);
+    ALPI_COMPILED_FOR(field->context, alpi_probe_lookup)
+    (field, count, positions, normals, irradiance);
 }
 
 /// v² + (.03 E)² at a point, mean over the channels: see alp_field_errors.
@@ -152,7 +152,7 @@ static void fill_light(const alpi_probe_volume *v, const float *strengths, alpi_
                 light[i] += more * v->layers[l].coefficients[(size_t)p * floats + i];
             }
         }
-        for (uint32_t axis = 0; axis < 3 && f->gradients != NULL; axis++) {
+        for (uint32_t axis = 0; axis < 3 && f->gradients != NULL && v->gradients != NULL; axis++) {
             memcpy(f->gradients + ((size_t)p * 3 + axis) * f->stride,
                    v->gradients + ((size_t)p * 3 + axis) * floats, floats * sizeof(float));
         }

@@ -12,8 +12,8 @@ void alpi_probe_place(const alpi_probe_volume *v, uint32_t index, double place[3
     const uint32_t at[3] = {index % v->size[0], index / v->size[0] % v->size[1],
                             index / v->size[0] / v->size[1]};
     for (int k = 0; k < 3; k++) {
-        place[k] = v->is_list ? (double)v->places[index][k]
-                              : v->origin[k] + (double)v->spacing[k] * at[k];
+        place[k] =
+            v->is_list ? (double)v->places[index][k] : v->origin[k] + (double)v->spacing[k] * at[k];
     }
 }
 

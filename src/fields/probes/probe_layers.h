@@ -11,7 +11,7 @@ enum { ALPI_PROBE_LAYER_LIMIT = ALPI_LAYER_LIMIT - 1 }; // the last holds all ot
 typedef struct alpi_probe_layers {
     alpi_light_layers light; // as a radiosity solves them
     uint32_t *part_layers;
-    uint32_t count;                          // of lamps
+    uint32_t count;                         // of lamps
     uint32_t lamps[ALPI_PROBE_LAYER_LIMIT]; // the light of each in the lighting
 } alpi_probe_layers;
 

@@ -32,13 +32,13 @@ typedef struct alpi_probe_field {
     uint32_t coefficient_count, stride; // floats of a probe, padded: 28, 12 or 20
     uint32_t count, size[3];
     float origin[3], spacing[3], inverse_spacing[3]; // metres, positions in the scene
-    float *light;              // [count][stride]
-    float *gradients;          // NULL, or [count][3][stride]: per metre from the probe's place
-    float (*places)[3];        // [count] where each was sampled
-    uint8_t *states;           // [count]
-    float (*moments)[2];       // NULL, or [count][ALPI_LOOKUP_MOMENTS]
-    float factor;              // alpi_probe_volume's
-    bool along_normal;         // positions are moved half a cell along the normal: three.js
+    float *light;                                    // [count][stride]
+    float *gradients;    // NULL, or [count][3][stride]: per metre from the probe's place
+    float (*places)[3];  // [count] where each was sampled
+    uint8_t *states;     // [count]
+    float (*moments)[2]; // NULL, or [count][ALPI_LOOKUP_MOMENTS]
+    float factor;        // alpi_probe_volume's
+    bool along_normal;   // positions are moved half a cell along the normal: three.js
 } alpi_probe_field;
 
 typedef void alpi_probe_lookup_fn(const alp_field *field, uint32_t count,

@@ -200,7 +200,8 @@ static inline void add_gradients(const alpi_probe_field *f, const probe_point *a
                                  uint32_t stride, float *sums)
 {
     const uint32_t probe = at->probe[lane];
-    const vec3 way = vec3_scale(vec3_sub(within(f, at->p), vec3_load(f->places[probe])), at->weight[lane]);
+    const vec3 way =
+        vec3_scale(vec3_sub(within(f, at->p), vec3_load(f->places[probe])), at->weight[lane]);
     const float *g = f->gradients + (size_t)probe * 3 * stride;
     for (uint32_t j = 0; j < stride; j++) {
         sums[j] += way.x * g[j] + way.y * g[stride + j] + way.z * g[2 * stride + j];

@@ -26,10 +26,10 @@ alp_result alpi_probe_lattice(const alp_scene *scene, const alp_probe_options *o
 /// Where probes are sampled.
 typedef struct alpi_probe_sampling {
     alp_context *context;
-    const alp_probe_options *options; // progress is read
-    alpi_sphere_rays rays;            // their geometry is read
-    float (*points)[3];               // [count] metres, positions in the scene
-    alpi_sphere_light *values;        // [count]
+    const alp_probe_options *options;  // progress is read
+    alpi_sphere_rays rays;             // their geometry is read
+    float (*points)[3];                // [count] metres, positions in the scene
+    alpi_sphere_light *values;         // [count]
     uint32_t *free_probes, free_count; // those outside of solids, moved ones too
 } alpi_probe_sampling;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes ↔ image: PNG, JPEG, WebP, OpenEXR, Radiance HDR. KTX2 images are written only; KTX2 textures
-// of half floats are read and written.
+// Bytes ↔ image: PNG, JPEG, WebP, OpenEXR, Radiance HDR. KTX2 images are written only; KTX2
+// textures of half floats are read and written.
 #ifndef ALPI_FORMATS_IMAGES_H
 #define ALPI_FORMATS_IMAGES_H
 

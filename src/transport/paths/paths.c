@@ -170,12 +170,11 @@ static void add_met(const alpi_reference *r, alpi_path_wave *w, uint32_t i, vec3
     if (w->density[i] >= 0.0f) {
         const vec3 origin = at(&w->origin, i), normal = at(&w->normal, i);
         const vec3 direction = at(&w->direction, i);
-        const float asked =
-            triangle != ALPI_NONE && w->depth[i] > 0
-                ? alpi_lighting_density_by_area(r->lighting, origin, normal, direction, triangle,
-                                                distance)
-                : alpi_lighting_density(lighting_at(r, w->depth[i]), origin, normal, direction,
-                                        triangle);
+        const float asked = triangle != ALPI_NONE && w->depth[i] > 0
+                                ? alpi_lighting_density_by_area(r->lighting, origin, normal,
+                                                                direction, triangle, distance)
+                                : alpi_lighting_density(lighting_at(r, w->depth[i]), origin, normal,
+                                                        direction, triangle);
         weight *= w->density[i] / (w->density[i] + asked);
     }
     bring(w, i,

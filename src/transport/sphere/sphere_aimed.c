@@ -42,17 +42,6 @@ static bool draw(const alpi_sphere_aim *aim, uint32_t sample, alpi_light_sample 
     return isfinite(factor);
 }
 
-static void add(vec3 direction, vec3 given, double light[3 * ALPI_SH9_COUNT])
-{
-    float basis[ALPI_SH9_COUNT];
-    alpi_sh9_basis(direction, basis);
-    for (int i = 0; i < ALPI_SH9_COUNT; i++) {
-        light[3 * i] += (double)(basis[i] * given.x);
-        light[3 * i + 1] += (double)(basis[i] * given.y);
-        light[3 * i + 2] += (double)(basis[i] * given.z);
-    }
-}
-
 static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, vec3 *given)
 {
     const alpi_gather_scene *from = &aim->rays->from;
@@ -78,30 +67,35 @@ static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, 
     }
 }
 
-void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, double light[3 * ALPI_SH9_COUNT])
+void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, const alpi_sphere_loops *loops,
+                             alpi_sphere_tallies *tallies)
 {
     const float offset = alpi_receiver_offset(aim->point, NULL);
     for (uint32_t packet = 0; packet < 2 * aim->pairs / ALPI_PACKET; packet++) {
-        alpi_rays rays;
-        vec3 given[ALPI_PACKET], directions[ALPI_PACKET];
+        alpi_sphere_packet p;
+        vec3 given[ALPI_PACKET];
         uint32_t active = 0;
-        alpi_rays_clear(&rays);
+        alpi_rays_clear(&p.rays);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
             alpi_light_sample s;
-            given[i] = directions[i] = (vec3){0.0f, 0.0f, 0.0f};
+            given[i] = (vec3){0.0f, 0.0f, 0.0f};
             if (draw(aim, packet * ALPI_PACKET + i, &s, &given[i])) {
                 const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * offset;
-                directions[i] = s.direction;
-                alpi_rays_set(&rays, (int)i, aim->point, s.direction, fmaxf(reach, 0.0f));
+                alpi_rays_set(&p.rays, (int)i, aim->point, s.direction, fmaxf(reach, 0.0f));
                 active |= 1u << i;
             }
         }
         if (active == 0) {
             continue;
         }
-        trace(aim, &rays, active, given);
+        alpi_rays shadow = p.rays; // tracing destroys it
+        trace(aim, &shadow, active, given);
         for (uint32_t i = 0; i < ALPI_PACKET; i++) {
-            add(directions[i], given[i], light);
+            p.weight[i] = 1.0f;
+            p.light[0][i] = given[i].x;
+            p.light[1][i] = given[i].y;
+            p.light[2][i] = given[i].z;
         }
+        loops->add(&p, 1, tallies);
     }
 }

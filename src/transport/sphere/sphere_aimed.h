@@ -25,7 +25,8 @@ typedef struct alpi_sphere_aim {
 
 alpi_sphere_aim alpi_sphere_aim_for(const alpi_sphere_rays *rays, vec3 point, uint32_t key);
 
-/// Adds ∫ L Y dω of what the aimed rays find. @param light [3 i + channel]
-void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, double light[3 * ALPI_SH9_COUNT]);
+/// Adds ∫ L Y dω of what the aimed rays find.
+void alpi_sphere_aimed_light(const alpi_sphere_aim *aim, const alpi_sphere_loops *loops,
+                             alpi_sphere_tallies *tallies);
 
 #endif

@@ -129,9 +129,9 @@ static void find_slots(const alpi_sphere_packet *p, const alpi_hits *hits, float
         const int bin = (bits >> BIN_BITS) - LAST + BINS - 1;
         const int low = bin > 0 ? bin : 0;
         distance[i] = met;
-        slot[i] = ((row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1)) *
-                      BINS +
-                  (low < BINS ? low : BINS - 1);
+        slot[i] =
+            ((row < SIDE ? row : SIDE - 1) * SIDE + (column < SIDE ? column : SIDE - 1)) * BINS +
+            (low < BINS ? low : BINS - 1);
     }
 }
 

@@ -225,6 +225,13 @@ static double sum_lanes(const float lanes[ALPI_PACKET])
     return sum;
 }
 
+static void sum_light(const alpi_sphere_tallies *tallies, double light[TALLIES])
+{
+    for (int i = 0; i < TALLIES; i++) {
+        light[i] = sum_lanes(tallies->light[i]);
+    }
+}
+
 static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t replicate,
                              sphere_sums *sums)
 {
@@ -246,14 +253,14 @@ static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t rep
         gather_batch(run, count, packets, sums);
         run->loops->add(packets, count, &tallies);
     }
-    for (int i = 0; i < TALLIES; i++) {
-        sums->light[replicate][i] = sum_lanes(tallies.light[i]);
-    }
+    sum_light(&tallies, sums->light[replicate]);
     sums->weight[replicate] = sum_lanes(tallies.weight);
+    memset(&tallies, 0, sizeof tallies);
     if (r->aimed != NULL) {
         const alpi_sphere_aim aim = alpi_sphere_aim_for(r, position, key);
-        alpi_sphere_aimed_light(&aim, sums->aimed[replicate]);
+        alpi_sphere_aimed_light(&aim, run->loops, &tallies);
     }
+    sum_light(&tallies, sums->aimed[replicate]);
 }
 
 /// Coefficient i of a replicate.
@@ -299,8 +306,10 @@ static alp_result gather_points(void *user, uint32_t begin, uint32_t end, uint32
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t point = job->list != NULL ? job->list[i] : i;
         sphere_sums sums;
-        memset(&sums, 0, sizeof sums);
+        sums.behind = 0.0;
         sums.back = INFINITY;
+        sums.back_direction = (vec3){0.0f, 0.0f, 0.0f};
+        memset(&sums.moments, 0, sizeof sums.moments);
         for (int lane = 0; lane < ALPI_PACKET; lane++) {
             sums.front[lane] = INFINITY;
         }
