@@ -126,7 +126,8 @@ static inline float gather(const alpi_probe_field *f, const probe_cell *cell, ve
 static inline void read_one(const alpi_probe_field *f, const float *position, const float *normal,
                             uint32_t stride, float *irradiance)
 {
-    float sums[ALPI_LOOKUP_STRIDE_MOST] = {0.0f}, weights[ALPI_SH9_COUNT], e[3] = {0.0f, 0.0f, 0.0f};
+    float sums[ALPI_LOOKUP_STRIDE_MOST] = {0.0f}, weights[ALPI_SH9_COUNT],
+          e[3] = {0.0f, 0.0f, 0.0f};
     vec3 p = vec3_load(position);
     const vec3 n = vec3_load(normal);
     if (f->along_normal) {

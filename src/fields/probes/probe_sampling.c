@@ -14,8 +14,8 @@ static const float MOVE_LIMIT = 0.45f;
 /// A probe nearer to a surface than this share of a cell lies on it: its rays may start on either
 /// side.
 static const float ON_SURFACE = 1e-3f;
-/// Largest share of the sphere that black backs may fill at a place that a probe is moved to. Beyond
-/// an edge of a wall without thickness, they fill an eighth.
+/// Largest share of the sphere that black backs may fill at a place that a probe is moved to.
+/// Beyond an edge of a wall without thickness, they fill an eighth.
 static const float MOVED_BACKS = 0.05f;
 
 static bool is_inside(const alpi_sphere_light *light)
@@ -167,8 +167,7 @@ static alp_result survey_probes(alpi_probe_sampling *s, alpi_probe_volume *v)
         v->states[i] = bad ? ALPI_PROBE_INVALID : ALPI_PROBE_VALID;
     }
     float(*places)[3] = alpi_allocate(s->context, (size_t)CHUNK * DIRECTIONS, sizeof *places);
-    alpi_sphere_light *light =
-        ALPI_NEW(s->context, alpi_sphere_light, (size_t)CHUNK * DIRECTIONS);
+    alpi_sphere_light *light = ALPI_NEW(s->context, alpi_sphere_light, (size_t)CHUNK * DIRECTIONS);
     const alp_result result = places != NULL && light != NULL ? move_probes(s, v, places, light)
                                                               : ALP_ERROR_OUT_OF_MEMORY;
     alpi_release(s->context, light);
