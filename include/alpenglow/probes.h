@@ -17,9 +17,9 @@ typedef enum alp_probe_basis {
 /// How a probe came by its light.
 typedef enum alp_probe_state {
     ALP_PROBE_VALID = 0, ///< sampled at its place
-    ALP_PROBE_MOVED,     ///< sampled beside its place, which lies in a solid
-    ALP_PROBE_FILLED,    ///< in a solid: mean of its valid neighbours
-    ALP_PROBE_INVALID    ///< in a solid, without such neighbours: black
+    ALP_PROBE_MOVED,     ///< sampled beside its place, which lies in a solid or on a surface
+    ALP_PROBE_FILLED,    ///< in a solid or on a surface: mean of its valid neighbours
+    ALP_PROBE_INVALID    ///< the same, without such neighbours: black
 } alp_probe_state;
 
 /// Probes on a lattice, or at any places. Opaque and immutable.
@@ -57,8 +57,8 @@ ALP_API alp_probe_options alp_probe_options_default(void);
 /// Solves the light of a scene, and samples it at probes.
 ///
 /// A probe traces `rays` rays through a cube about it, in four replicates. In a solid (over a
-/// quarter of the sphere shows black backs) it is moved by at most 45 % of a cell, to the nearest
-/// free place. Without one, its light is the mean of its valid neighbours.
+/// quarter of the sphere shows black backs) or on a surface, it is moved by at most 45 % of a cell,
+/// to the nearest free place. Without one, its light is the mean of its valid neighbours.
 /// @param probes out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range, a position that is not finite; nothing
 ///         lights the scene); LIMIT (too many probes: the message states their memory);

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 512, HELD_OUT_PATHS = 256 };
+enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 2048, HELD_OUT_PATHS = 64 };
 enum { STREAM_HELD_OUT = 24, LIST_LIMIT = 1 << 20 };
 
 alp_probe_options alp_probe_options_default(void)

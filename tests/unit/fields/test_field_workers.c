@@ -51,7 +51,7 @@ static void make(uint32_t workers, const void *what, void *bytes)
     o.lighting.lamps = a.lighting.lamps = r.lighting.lamps = &lamp;
     o.lighting.lamp_count = a.lighting.lamp_count = r.lighting.lamp_count = 1;
     o.spacing = 0.14f; // 4 x 4 x 4, some of them in the blocks
-    o.atlas_size = 64;
+    o.atlas_size = 32;
     o.rays = 384;
     o.layers = o.gradients = true;
     a.model = ALP_AMBIENT_GROUND_MAP;

@@ -4,8 +4,6 @@
 
 TEST_CONTEXT(2);
 
-enum { SEEDS = 2 };
-
 static alp_probes *bake(const alp_scene *scene, float spacing, uint32_t rays, uint64_t seed)
 {
     alp_probe_options o = alp_probe_options_default();
@@ -15,6 +13,10 @@ static alp_probes *bake(const alp_scene *scene, float spacing, uint32_t rays, ui
     o.seed = seed;
     o.atlas_size = 64;
     o.visibility = false;
+    for (int k = 0; k < 3; k++) { // far from the lamp, whose light few probes would dominate
+        o.bounds_min[k] = 0.05f;
+        o.bounds_max[k] = k == 1 ? 0.25f : 0.5f;
+    }
     ASSERT_OK(context, alp_probes_bake(scene, &o, &probes));
     return probes;
 }
@@ -31,11 +33,11 @@ static double square_of(const float *a, const float *b)
     return sum;
 }
 
-static void check(const char *name, float spacing)
+static void check(const char *name, float spacing, uint32_t seeds)
 {
     alp_scene *scene = test_load(context, name);
     double squares = 0.0, stated = 0.0;
-    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+    for (uint64_t seed = 0; seed < seeds; seed++) {
         alp_probes *quick = bake(scene, spacing, 1536, seed);
         alp_probes *exact = bake(scene, spacing, 1u << 16, seed);
         const alp_probes_info info = alp_probes_get_info(quick);
@@ -48,8 +50,8 @@ static void check(const char *name, float spacing)
                 count++;
             }
         }
-        squares += sum / count / SEEDS;
-        stated += error * error / SEEDS;
+        squares += sum / count / seeds;
+        stated += error * error / seeds;
         alp_probes_destroy(quick);
         alp_probes_destroy(exact);
     }
@@ -61,10 +63,10 @@ static void check(const char *name, float spacing)
 
 TEST_SLOW(cornell_states_its_error)
 {
-    check("builtin:cornell", 0.1f);
+    check("builtin:cornell", 0.1f, 8);
 }
 
 TEST_SLOW(a_furnace_states_its_error)
 {
-    check("builtin:furnace", 0.3f);
+    check("builtin:furnace", 0.15f, 2);
 }

@@ -22,7 +22,7 @@ static alp_probes *bake(const alp_scene *scene, int which, bool layers, bool dir
     o.lighting.lamps = which == SECOND ? lamps + 1 : lamps;
     o.lighting.lamp_count = which == BOTH ? 2 : which == NONE ? 0 : 1;
     o.spacing = 1.0f;
-    o.atlas_size = 128;
+    o.atlas_size = 64;
     o.layers = layers;
     o.direct = direct;
     ASSERT_OK(context, alp_probes_bake(scene, &o, &probes));

@@ -162,7 +162,7 @@ static bool is_within(const double p[3], vec3 low, vec3 high)
 
 TEST(probes_in_solids_are_moved_or_filled)
 {
-    const vec3 low = {1.15f, 1.15f, 1.15f}, high = {2.85f, 2.85f, 2.85f};
+    const vec3 low = {1.05f, 1.05f, 1.05f}, high = {2.95f, 2.95f, 2.95f};
     alp_scene *scene = room_with_block(low, high);
     alp_probe_options o = quick_options(0.5f);
     alp_probes *probes = NULL;
@@ -191,7 +191,7 @@ TEST(probes_in_solids_are_moved_or_filled)
         filled += states[i] == ALP_PROBE_FILLED;
     }
     assert_int_equal(moved, info.states[ALP_PROBE_MOVED]);
-    assert_int_equal(moved, 64 - 8); // a shell of a block of 4 x 4 x 4, 10 cm deep
+    assert_int_equal(moved, 64 - 8); // a shell of a block of 4 x 4 x 4, 20 cm deep
     assert_int_equal(filled + info.states[ALP_PROBE_INVALID], 8);
     check_furnace(probes, (vec3){4.0f, 4.0f, 4.0f}, 0.0f);
     alp_probes_destroy(probes);
@@ -223,7 +223,8 @@ TEST(a_lattice_all_in_a_solid_is_black)
     alp_scene_destroy(scene);
 }
 
-/// Two rooms with a wall of 1 m between them, of which one glows.
+/// A glowing room in x < 2 and a dark one beyond a wall, whose back part is filled by a block: a
+/// gap of 2 cm parts the block from the wall.
 static alp_scene *two_rooms(void)
 {
     alpi_builder b;
@@ -237,31 +238,32 @@ static alp_scene *two_rooms(void)
     alpi_builder_surface(&b, "bright", bright);
     alpi_builder_box(&b, (vec3){2.0f, 2.0f, 2.0f}, (vec3){0.0f, 0.0f, 0.0f}, ALPI_FACE_ALL);
     alpi_builder_surface(&b, "dark", dark);
-    alpi_builder_box(&b, (vec3){5.0f, 2.0f, 2.0f}, (vec3){3.0f, 0.0f, 0.0f}, ALPI_FACE_ALL);
+    alpi_builder_box(&b, (vec3){5.0f, 2.0f, 2.0f}, (vec3){2.1f, 0.0f, 0.0f}, ALPI_FACE_ALL);
+    alpi_builder_box(&b, (vec3){2.12f, 0.0f, 0.0f}, (vec3){3.6f, 2.0f, 2.0f}, ALPI_FACE_ALL);
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
     return scene;
 }
 
-TEST(probes_in_a_wall_are_filled_from_their_side)
+/// Probes in the block lie nearer to the bright room, but take the light of the dark one.
+TEST(probes_in_solids_are_filled_from_what_they_see)
 {
     alp_scene *scene = two_rooms();
-    alp_probe_options o = quick_options(0.4f);
+    alp_probe_options o = quick_options(0.8f); // at .1, .9, 1.7, 2.5, 3.3, 4.1, 4.9
     alp_probes *probes = NULL;
     uint32_t filled = 0;
-    o.bounds_max[0] = 5.0f;
+    o.bounds_min[0] = -0.3f;
+    o.bounds_max[0] = 5.3f;
     o.bounds_max[1] = o.bounds_max[2] = 2.0f;
-    o.bounds_min[0] = o.bounds_min[1] = o.bounds_min[2] = 1e-4f;
     ASSERT_OK(context, alp_probes_bake(scene, &o, &probes));
+    assert_int_equal(alp_probes_get_info(probes).size[0], 7);
     for (uint32_t i = 0; i < alp_probes_get_info(probes).count; i++) {
         double p[3];
         alp_probes_position(probes, i, p);
-        if (alp_probes_states(probes)[i] == ALP_PROBE_FILLED && p[0] > 2.0 && p[0] < 3.0) {
-            const double light = (double)field_coefficient(probes, i, 0)[1];
-            ASSERT_NEAR(light, p[0] < 2.45 ? 4.0 * sqrt(FIELD_PI) : p[0] > 2.55 ? 0.0 : light, 0.2);
-            filled++;
-        }
+        const bool bright = p[0] < 2.0;
+        ASSERT_NEAR(field_coefficient(probes, i, 0)[1], bright ? 4.0 * sqrt(FIELD_PI) : 0.0, 0.1);
+        filled += alp_probes_states(probes)[i] == ALP_PROBE_FILLED;
     }
-    assert_true(filled > 0);
+    assert_int_equal(filled, 9); // those at 2.5; those at 3.3 are moved
     alp_probes_destroy(probes);
     alp_scene_destroy(scene);
 }
