@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
 # render: fields, objects that they light, and spheres that show probes
 render="alpenglow render builtin:cornell --resolution 32x24 --samples 4 -q"
-for model in constant hemisphere ground-map ambient-cube environment probes; do
-    $render --with $model -o $model.exr || echo "exit $?"
+for model in constant hemisphere ground-map ambient-cube environment "probes --spacing .1"; do
+    $render --with $model -o "${model%% *}.exr" || echo "exit $?"
 done
 ls
-$render --with probes --lookup three -o three.exr
-$render --with probes --overlay probes --object sphere,.28,.3,.28,.1 -o object.exr
+$render --with probes --spacing .1 --lookup three -o three.exr
+$render --with probes --spacing .1 --overlay probes --object sphere,.28,.3,.28,.1 -o object.exr
 for name in three object; do
     alpenglow compare probes.exr $name.exr --max-rmse 1e-6 >/dev/null 2>&1 || echo "$name differs"
 done

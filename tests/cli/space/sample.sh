@@ -3,9 +3,9 @@
 printf 'x,y,z,nx,ny,nz\n.28,.27,.28,0,1,0\n.28 .27 .28\t0 -2 0\n' >points.csv
 sample="alpenglow sample builtin:cornell --at points.csv -q"
 $sample --with reference --samples 16 | cut -d , -f 1-6
-for model in reference probes constant hemisphere ground-map ambient-cube environment; do
+for model in reference "probes --spacing .1" constant hemisphere ground-map ambient-cube environment; do
     # above is brighter than below, but for one colour alone
-    $sample --with $model | awk -F , -v model=$model 'NR == 2 {up = $7}
+    $sample --with $model | awk -F , -v model="${model%% *}" 'NR == 2 {up = $7}
         NR == 3 {print model, (up > $7 ? "up" : (up == $7 ? "even" : "down")), NF}'
 done
 $sample --with constant --direct on --lamp .3,.3,.3,1 | tail -n 1 | cut -d , -f 1-3
