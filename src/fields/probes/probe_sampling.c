@@ -85,9 +85,56 @@ static bool is_within(const alp_scene *scene, const float place[3])
            place[1] <= high.y && place[2] <= high.z;
 }
 
+/// Whether a few rays show a place to lie in a solid: three of eight meet black backs.
+static bool shows_backs(const alpi_probe_sampling *s, const float place[3])
+{
+    enum { MOST = 2 };
+    const alpi_gather_scene *from = &s->rays.from;
+    const float corner = 0.57735027f; // 1/√3
+    alpi_rays rays;
+    alpi_hits hits;
+    uint32_t backs = 0;
+    alpi_rays_start(&rays, vec3_load(place));
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        rays.direction_x[i] = (i & 1) != 0 ? corner : -corner;
+        rays.direction_y[i] = (i & 2) != 0 ? corner : -corner;
+        rays.direction_z[i] = (i & 4) != 0 ? corner : -corner;
+    }
+    alpi_trace_nearest(from->tracer, &rays, 0xffu, from->filter, &hits);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        const bool behind = hits.triangle[i] != ALPI_NONE && (hits.behind >> i & 1u) != 0;
+        backs += behind && !alpi_surface_is_double_sided(from->scene, hits.triangle[i]);
+    }
+    return backs > MOST;
+}
+
+/// Places beside probes of a list, of which few rays tell which are worth more.
+typedef struct place_test {
+    const alpi_probe_sampling *sampling;
+    const uint32_t *list;
+    const float (*places)[3];
+    alpi_sphere_light *light; // out: `behind` is 1 of those that are not
+} place_test;
+
+static alp_result test_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const place_test *test = user;
+    const alpi_probe_sampling *s = test->sampling;
+    for (uint32_t i = begin * DIRECTIONS; i < end * DIRECTIONS; i++) {
+        const uint32_t probe = test->list[i / DIRECTIONS];
+        const float *place = test->places[i];
+        const vec3 way = vec3_sub(vec3_load(place), vec3_load(s->points[probe]));
+        // No place within the nearest surface is free; that is known to a few hundredths.
+        const bool near = vec3_length(way) < 0.9f * nearest_surface(&s->values[probe]);
+        const bool out = near || !is_within(s->rays.from.scene, place) || shows_backs(s, place);
+        test->light[i].behind = out ? 1.0f : 0.0f;
+    }
+    return ALP_OK;
+}
+
 /// The free place that is nearest, and of those as near the one farthest from surfaces; −1: none
-static int choose_place(const alp_scene *scene, const float (*places)[3],
-                        const alpi_sphere_light *light)
+static int choose_place(const alpi_sphere_light *light)
 {
     int best = -1, best_square = 4;
     for (int i = 0; i < DIRECTIONS; i++) {
@@ -97,7 +144,7 @@ static int choose_place(const alp_scene *scene, const float (*places)[3],
         const bool better =
             square < best_square ||
             (square == best_square && light[i].front_distance > light[best].front_distance);
-        if (better && light[i].behind <= MOVED_BACKS && is_within(scene, places[i])) {
+        if (better && light[i].behind <= MOVED_BACKS) {
             best = i;
             best_square = square;
         }
@@ -105,30 +152,53 @@ static int choose_place(const alp_scene *scene, const float (*places)[3],
     return best;
 }
 
-/// Moves those of some probes for which a place is free at a distance. Takes them off the list.
-static alp_result move_step(alpi_probe_sampling *s, alpi_probe_volume *v, int step, uint32_t *list,
-                            uint32_t *count, float (*places)[3], alpi_sphere_light *light)
+/// Room for moves: CHUNK × DIRECTIONS of each.
+typedef struct move_work {
+    float (*places)[3];
+    alpi_sphere_light *light;
+    uint32_t *worth; // places that are surveyed
+} move_work;
+
+/// Surveys the places beside probes of a list at a distance.
+static alp_result survey_places(const alpi_probe_sampling *s, const alpi_probe_volume *v, int step,
+                                const uint32_t *list, uint32_t count, const move_work *w)
 {
     const alpi_sphere_rays survey = alpi_probe_survey_rays(s);
-    uint32_t left = 0;
-    for (uint32_t i = 0; i < *count; i++) {
-        list_places(v, s->points[list[i]], step, places + (size_t)i * DIRECTIONS);
+    const alpi_task_progress progress = {
+        .callback = s->options->progress, .user = s->options->progress_user, .stage = "moves"};
+    uint32_t worth = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        list_places(v, s->points[list[i]], step, w->places + (size_t)i * DIRECTIONS);
+    }
+    place_test test = {s, list, (const float(*)[3])w->places, w->light};
+    ALP_TRY(alpi_parallel_for(s->context, count, 16, test_places, &test, &progress));
+    for (uint32_t i = 0; i < count * DIRECTIONS; i++) {
+        if (w->light[i].behind < 1.0f) {
+            w->worth[worth++] = i;
+        }
     }
     const alpi_sphere_job job = {.rays = &survey,
-                                 .points = (const float(*)[3])places,
-                                 .count = *count * DIRECTIONS,
-                                 .values = light};
-    ALP_TRY(gather(s, &job, "moves"));
+                                 .points = (const float(*)[3])w->places,
+                                 .list = w->worth,
+                                 .count = worth,
+                                 .values = w->light};
+    return gather(s, &job, "moves");
+}
+
+/// Moves those of some probes for which a place is free at a distance. Takes them off the list.
+static alp_result move_step(alpi_probe_sampling *s, alpi_probe_volume *v, int step, uint32_t *list,
+                            uint32_t *count, const move_work *w)
+{
+    uint32_t left = 0;
+    ALP_TRY(survey_places(s, v, step, list, *count, w));
     for (uint32_t i = 0; i < *count; i++) {
         const uint32_t probe = list[i];
-        const int best =
-            choose_place(s->rays.from.scene, (const float(*)[3])(places + (size_t)i * DIRECTIONS),
-                         light + (size_t)i * DIRECTIONS);
+        const int best = choose_place(w->light + (size_t)i * DIRECTIONS);
         if (best < 0) {
             list[left++] = probe;
             continue;
         }
-        const float *place = places[(size_t)i * DIRECTIONS + (size_t)best];
+        const float *place = w->places[(size_t)i * DIRECTIONS + (size_t)best];
         for (int k = 0; k < 3; k++) {
             v->moves[probe][k] = place[k] - s->points[probe][k];
         }
@@ -145,8 +215,7 @@ static bool may_move(const alpi_probe_volume *v, const alpi_sphere_light *light)
     return !v->is_list && nearest_surface(light) <= MOVE_LIMIT * vec3_length(vec3_load(v->spacing));
 }
 
-static alp_result move_probes(alpi_probe_sampling *s, alpi_probe_volume *v, float (*places)[3],
-                              alpi_sphere_light *light)
+static alp_result move_probes(alpi_probe_sampling *s, alpi_probe_volume *v, const move_work *w)
 {
     uint32_t list[CHUNK], count = 0;
     for (uint32_t i = 0; i < v->count; i++) {
@@ -157,7 +226,7 @@ static alp_result move_probes(alpi_probe_sampling *s, alpi_probe_volume *v, floa
             continue;
         }
         for (int step = 0; step < STEPS && count > 0; step++) {
-            ALP_TRY(move_step(s, v, step, list, &count, places, light));
+            ALP_TRY(move_step(s, v, step, list, &count, w));
         }
         count = 0;
     }
@@ -177,12 +246,15 @@ static alp_result survey_probes(alpi_probe_sampling *s, alpi_probe_volume *v)
         const bool bad = is_inside(&s->values[i]) || is_on_surface(v, &s->values[i]);
         v->states[i] = bad ? ALPI_PROBE_INVALID : ALPI_PROBE_VALID;
     }
-    float(*places)[3] = alpi_allocate(s->context, (size_t)CHUNK * DIRECTIONS, sizeof *places);
-    alpi_sphere_light *light = ALPI_NEW(s->context, alpi_sphere_light, (size_t)CHUNK * DIRECTIONS);
-    const alp_result result = places != NULL && light != NULL ? move_probes(s, v, places, light)
-                                                              : ALP_ERROR_OUT_OF_MEMORY;
-    alpi_release(s->context, light);
-    alpi_release(s->context, places);
+    const size_t places = (size_t)CHUNK * DIRECTIONS;
+    const move_work work = {alpi_allocate(s->context, places, sizeof *work.places),
+                            ALPI_NEW(s->context, alpi_sphere_light, places),
+                            ALPI_NEW(s->context, uint32_t, places)};
+    const bool room = work.places != NULL && work.light != NULL && work.worth != NULL;
+    const alp_result result = room ? move_probes(s, v, &work) : ALP_ERROR_OUT_OF_MEMORY;
+    alpi_release(s->context, work.worth);
+    alpi_release(s->context, work.light);
+    alpi_release(s->context, work.places);
     return result;
 }
 

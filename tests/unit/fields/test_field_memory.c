@@ -90,7 +90,7 @@ static void fail_each(make_field *make)
     const long total = atomic_load(&whole.count);
     assert_in_range(total, 4, 6000);
     // Allocations of fields are the last; many of those of the light before them are alike.
-    const long last = 200, some = 53;
+    const long last = 120, some = 101;
     for (long i = 0; i < total; i += i + last < total ? some : TEST_STEP) {
         test_memory memory = {.failing = i};
         if (run_with(make, &memory) == ALP_OK) {
