@@ -113,7 +113,7 @@ highp float alpenglowProbeVisibility(highp ivec3 probe, highp vec3 way, highp fl
   return max(share * share * share, 0.05);
 }
 
-// What a probe's weight is multiplied by. way: from the point to the probe
+// Factor on a probe's weight. way: from the point to the probe
 highp float alpenglowProbeWeight(highp ivec3 probe, highp vec3 way, highp vec3 normal) {
   highp float distance = length(way);
   highp float facing = 0.5 * (dot(normal, way) / max(distance, 1e-12) + 1.0);

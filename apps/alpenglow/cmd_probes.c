@@ -15,8 +15,18 @@ static int check_options(const command_line *a)
     if (output == NULL) {
         return usage_error(COMMAND_PROBES, "no output; give -o OUT.probes.json");
     }
-    if (!path_ends(output, ".json")) {
+    if (!path_ends(output, ".probes.json")) {
         return usage_error(COMMAND_PROBES, "-o %s: the name must end in .probes.json", output);
+    }
+    const bool seen =
+        a->values[OPTION_VISIBILITY].given && a->values[OPTION_VISIBILITY].choice == 1;
+    if (a->values[OPTION_AT].given && (a->values[OPTION_GRADIENTS].given || seen)) {
+        return usage_error(COMMAND_PROBES, "%s: needs a grid; leave out --at",
+                           seen ? "--visibility on" : "--gradients");
+    }
+    if (a->values[OPTION_LAYERS].given && a->values[OPTION_GRADIENTS].given) {
+        return usage_error(COMMAND_PROBES, "--gradients: are of all light, which --layers parts; "
+                                           "leave one out");
     }
     if (a->values[OPTION_EXPORT_SCALE].given && !a->values[OPTION_EXPORT].given) {
         return usage_error(COMMAND_PROBES, "--export-scale: needs --export three");
@@ -43,19 +53,39 @@ static void print_summary(const char *output, const alp_probes *probes, double s
     printf(", %.2f s\n", seconds);
 }
 
-/// --export: NAME.three.mjs beside NAME.probes.json.
-static alp_result export_probes(const command_line *a, const alp_probes *probes)
+/// A file beside the output: its name without .probes.json, and another ending.
+static char *path_beside(const command_line *a, const char *ending)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
-    const size_t length = strlen(output);
-    const size_t stem =
-        length - strlen(path_ends(output, ".probes.json") ? ".probes.json" : ".json");
+    const size_t stem = strlen(output) - strlen(".probes.json");
+    const size_t size = stem + strlen(ending) + 1;
+    char *path = allocate_or_exit(NULL, size);
+    snprintf(path, size, "%.*s%s", (int)stem, output, ending);
+    return path;
+}
+
+/// Whether all files can be written, before the long work.
+static int check_outputs(const command_line *a)
+{
+    static const char *const endings[] = {".probes.json", ".probes.ktx2", ".probes.moments.ktx2",
+                                          ".three.mjs", ".three.ktx2"};
+    const int count = a->values[OPTION_EXPORT].given ? 5 : 3;
+    int code = EXIT_DONE;
+    for (int i = 0; i < count && code == EXIT_DONE; i++) {
+        char *path = path_beside(a, endings[i]);
+        code = output_check(path, a->values[OPTION_FORCE].given);
+        free(path);
+    }
+    return code;
+}
+
+/// Writes NAME.three.mjs and .ktx2 beside NAME.probes.json.
+static alp_result export_probes(const command_line *a, const alp_probes *probes)
+{
     if (!a->values[OPTION_EXPORT].given) {
         return ALP_OK;
     }
-    const size_t size = length + sizeof ".three.mjs";
-    char *path = allocate_or_exit(NULL, size);
-    snprintf(path, size, "%.*s.three.mjs", (int)stem, output);
+    char *path = path_beside(a, ".three.mjs");
     const alp_result result = alp_probes_export_three(
         probes, path, a->values[OPTION_EXPORT_SCALE].real, a->values[OPTION_FORCE].given);
     free(path);
@@ -71,11 +101,11 @@ static int bake(session *s, const command_line *a, alp_probe_options *o)
     o->progress_user = s;
     interrupt_defer();
     alp_result result = alp_probes_bake(s->scene, o, &probes);
-    if (result == ALP_OK) {
-        result = alp_probes_save(probes, output, a->values[OPTION_FORCE].given);
+    if (result == ALP_OK) { // first, for it may be refused
+        result = export_probes(a, probes);
     }
     if (result == ALP_OK) {
-        result = export_probes(a, probes);
+        result = alp_probes_save(probes, output, a->values[OPTION_FORCE].given);
     }
     const int code = session_end(s, result);
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
@@ -98,7 +128,7 @@ int command_probes(const command_line *a)
     code = code == EXIT_DONE ? lighting_read(a, &lighting, &lamps) : code;
     code = code == EXIT_DONE ? probe_options_read(a, &lighting, info.origin, &options) : code;
     if (code == EXIT_DONE) {
-        code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);
+        code = check_outputs(a);
     }
     if (code != EXIT_DONE) {
         return code;

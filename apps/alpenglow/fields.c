@@ -20,6 +20,10 @@ static int read_bounds(const command_line *a, const double origin[3], alp_probe_
         return usage_error(a->command, "--bounds: '%s' is no box; give X0,Y0,Z0,X1,Y1,Z1 in metres",
                            bounds->text);
     }
+    if (n[0] == n[3] && n[1] == n[4] && n[2] == n[5]) {
+        return usage_error(a->command, "--bounds: '%s' has no extent; give two corners of a box",
+                           bounds->text);
+    }
     for (int k = 0; k < 3; k++) {
         o->bounds_min[k] = (float)(fmin(n[k], n[k + 3]) - origin[k]);
         o->bounds_max[k] = (float)(fmax(n[k], n[k + 3]) - origin[k]);
@@ -56,6 +60,25 @@ int probe_file_check(const command_line *a)
         (a->values[OPTION_SPACING].given || a->values[OPTION_BOUNDS].given)) {
         return usage_error(a->command,
                            "--spacing and --bounds bake probes; leave them out with --probes");
+    }
+    // The file holds its light. A picture adds sky, sun and lamps of its own.
+    static const struct {
+        const char *name;
+        option_id id;
+        bool picture;
+    } baked[] = {{"--bounces", OPTION_BOUNCES, true}, {"--direct", OPTION_DIRECT, false},
+                 {"--sky", OPTION_SKY, false},        {"--sun", OPTION_SUN, false},
+                 {"--lamp", OPTION_LAMP, false},      {"--spot", OPTION_SPOT, false},
+                 {"--metals", OPTION_METALS, false},  {"--seed", OPTION_SEED, false}};
+    const bool sampled = a->command == COMMAND_SAMPLE;
+    for (size_t i = 0; i < sizeof baked / sizeof *baked && a->values[OPTION_PROBES].given; i++) {
+        if (a->values[baked[i].id].given && (sampled || baked[i].picture) &&
+            a->command != COMMAND_INFO) {
+            return usage_error(a->command,
+                               "%s: the probes of a file hold their light; leave it out "
+                               "with --probes",
+                               baked[i].name);
+        }
     }
     alp_probe_options unused;
     return read_bounds(a, (const double[3]){0.0, 0.0, 0.0}, &unused);

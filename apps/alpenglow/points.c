@@ -15,7 +15,8 @@ static int read_numbers(const char *line, double numbers[COLUMNS], int wanted, c
     *end = line;
     while (count < wanted) {
         char *behind = NULL;
-        at += strspn(at, count > 0 ? ",; \t" : " \t");
+        at += strspn(at, " \t");
+        at += count > 0 && (*at == ',' || *at == ';') ? 1 : 0; // an empty column is no number
         numbers[count] = strtod(at, &behind);
         if (behind == at || (*behind != '\0' && strchr(",; \t\r\n", *behind) == NULL)) {
             break;

@@ -29,9 +29,8 @@ ALP_API void alp_field_irradiance(const alp_field *field, uint32_t count,
 
 /// Expected error of a field at points: root mean square over the channels, W·m⁻².
 ///   ambient models  that at the points which they were fitted at, the same everywhere
-///   probes          √(noise² + f² (v² + (.03 E)²)), with v the RMS change of E within a quarter of
-///   a
-///                   cell along the axes, and f as measured at points that took no part in the bake
+///   probes          √(noise² + f² (v² + (.03 E)²)). v is the RMS change of E within a quarter of
+///                   a cell along the axes. f is measured at points that took no part in the bake.
 ///   a list          its noise alone
 /// @param errors [count] out; 0 where it is not known
 /// May be called by any number of threads at once. It allocates nothing and does not fail.

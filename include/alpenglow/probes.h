@@ -38,7 +38,8 @@ typedef struct alp_probe_options {
     uint32_t position_count;
     alp_probe_basis basis;
     bool visibility; ///< store distances, against light through walls; default true
-    bool gradients;  ///< store the change of each coefficient per metre; default false
+    bool gradients;  ///< store the change of each coefficient per metre; not with layers or
+                     ///< positions; default false
     /// The light of each lamp and sun is stored apart too, so that a host can dim it; default
     /// false. At most 15 get a layer, in the order of the lights: a warning says so (many-layers).
     bool layers;
@@ -49,7 +50,9 @@ typedef struct alp_probe_options {
     bool one_sided;                ///< rays pass single-sided surfaces from behind; default false
     uint32_t atlas_size;           ///< texels along a page of the radiosity; default 512
     uint64_t seed;
-    alp_progress_fn *progress; ///< stages "atlas", "validity", "light", "probes"
+    /// Stages "atlas", "validity", "light", "survey", "moves", "probes", "gradients", "layers",
+    /// "fill".
+    alp_progress_fn *progress;
     void *progress_user;
 } alp_probe_options;
 ALP_API alp_probe_options alp_probe_options_default(void);
@@ -96,7 +99,7 @@ ALP_API const float *alp_probes_coefficients(const alp_probes *probes, uint32_t 
 ALP_API const char *alp_probes_layer_name(const alp_probes *probes, uint32_t layer);
 /// [count] alp_probe_state, owned by the probes.
 ALP_API const uint8_t *alp_probes_states(const alp_probes *probes);
-/// Where probe `index` was sampled, metres in the world of the scene's file.
+/// Place at which probe `index` was sampled, metres in the world of the scene's file.
 ALP_API void alp_probes_position(const alp_probes *probes, uint32_t index, double position[3]);
 
 /// Writes PATH (.probes.json), and beside it .probes.ktx2 with the light and, with visibility,

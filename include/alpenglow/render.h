@@ -99,8 +99,8 @@ typedef struct alp_render_options {
     alp_atlas_options atlas;
     uint32_t hemicube; ///< HEMICUBE: n, pixels along an edge, even, [2, 1024]; default 256
     alp_hemicube_show hemicube_show; ///< HEMICUBE
-    /// REFERENCE, RADIOSITY, HEMICUBE, and the background of LIGHTMAP. HEMISPHERE uses its sky,
-    /// always of two colours; default there: up 1, down 0.
+    /// REFERENCE, RADIOSITY, HEMICUBE; lamps and suns of FIELD; the background of LIGHTMAP and
+    /// FIELD. HEMISPHERE uses its sky, always of two colours; default there: up 1, down 0.
     alp_lighting_options lighting;
     uint32_t bounces;       ///< REFERENCE, RADIOSITY, HEMICUBE: 0 = direct light alone; default
                             ///< ALP_BOUNCES_CONVERGE
@@ -108,10 +108,10 @@ typedef struct alp_render_options {
                             ///< never finds lights without extent.
     const alp_field *field; ///< FIELD: made of this scene's light
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from
-    /// punctual lamps and suns. Default false.
+    /// punctual lamps and suns. A field that holds that light keeps it. Default false.
     bool without_direct;
     alp_render_object object; ///< REFERENCE, FIELD
-    /// FIELD, LIGHTMAP, ALBEDO: NULL, or probes to draw as small spheres that show their own
+    /// All but HEMICUBE: NULL, or probes to draw as small spheres that show their own
     /// light, at most the 20,000 nearest. Orange: filled in a solid. Magenta: black in a solid.
     const alp_probes *overlay;
     alp_image **error; ///< NULL, or out: REFERENCE and RADIOSITY: standard error of each pixel from

@@ -225,6 +225,7 @@ static alp_result add_points(object_job *job)
 static void meet_object(object_job *job, uint32_t pixel, uint32_t lanes, alpi_rays *rays)
 {
     const alpi_trace_filter filter = {.one_sided = true};
+    const alpi_trace_filter behind = {.one_sided = job->pass->options->occlusion.one_sided};
     alpi_hits own, scene;
     alpi_trace_nearest_coherent(job->tracer, rays, (1u << lanes) - 1u, filter, &own);
     uint32_t met = 0;
@@ -234,7 +235,7 @@ static void meet_object(object_job *job, uint32_t pixel, uint32_t lanes, alpi_ra
     if (met == 0) {
         return;
     }
-    alpi_trace_nearest_coherent(job->pass->tracer, rays, met, (alpi_trace_filter){0}, &scene);
+    alpi_trace_nearest_coherent(job->pass->tracer, rays, met, behind, &scene);
     for (; met != 0; met &= met - 1) {
         const int i = __builtin_ctz(met);
         if (scene.triangle[i] != ALPI_NONE && scene.distance[i] < own.distance[i]) {

@@ -9,7 +9,7 @@
 
 #include <alpenglow/render.h>
 
-/// What lights them; one of the three.
+/// A picture, and the light of its objects: one of the last three.
 typedef struct alpi_object_pass {
     const alp_scene *scene;
     const alpi_tracer *tracer; // of the scene, which hides them

@@ -53,6 +53,7 @@ typedef struct alpi_probe_volume {
     float (*moments)[2]; // [count][64]
     float reach;         // metres
     // Content.
+    bool without_sky, without_emission, without_reflected; // false: that light is in it
     bool direct;          // light straight from punctual lamps and suns is in it
     uint64_t scene_hash;  // input_hash of the scene
     float relative_error; // stated: √(mean of squared standard errors of E) / mean E; 0 unknown
@@ -75,6 +76,10 @@ static inline uint32_t alpi_probe_basis_count(alpi_probe_basis basis)
 /// @return ALP_OK; OUT_OF_MEMORY, after which destroy is still right
 alp_result alpi_probe_volume_allocate(alp_context *context, bool gradients, bool moments,
                                       alpi_probe_volume *volume);
+/// Gives INVALID probes of a lattice the mean of their neighbours, nearest to light first.
+/// @param light [count][floats] in, out
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_probe_volume_spread(const alpi_probe_volume *volume, uint32_t floats, float *light);
 /// Releases the arrays, and leaves it zeroed. Of all zeros it does nothing.
 void alpi_probe_volume_destroy(alpi_probe_volume *volume);
 

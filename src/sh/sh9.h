@@ -70,4 +70,15 @@ static inline int alpi_sh9_band(int index)
     return index == 0 ? 0 : index < ALPI_SH4_COUNT ? 1 : 2;
 }
 
+/// Weights of an ambient cube, +x −x +y −y +z −z: E(n) = Σ n_i² E(±axis i).
+static inline void alpi_ambient_cube_weights(vec3 normal, float weights[6])
+{
+    const float axis[3] = {normal.x, normal.y, normal.z};
+    for (int k = 0; k < 3; k++) {
+        const float square = axis[k] * axis[k];
+        weights[2 * k] = axis[k] > 0.0f ? square : 0.0f;
+        weights[2 * k + 1] = axis[k] > 0.0f ? 0.0f : square;
+    }
+}
+
 #endif

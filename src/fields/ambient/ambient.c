@@ -32,16 +32,6 @@ alp_ambient_options alp_ambient_options_default(void)
 
 // --- the functions of each model -----------------------------------------------------------------
 
-static void list_cube_terms(vec3 n, float terms[TERM_LIMIT])
-{
-    const float axis[3] = {n.x, n.y, n.z};
-    for (int k = 0; k < 3; k++) {
-        const float square = axis[k] * axis[k];
-        terms[2 * k] = axis[k] > 0.0f ? square : 0.0f;
-        terms[2 * k + 1] = axis[k] > 0.0f ? 0.0f : square;
-    }
-}
-
 /// The functions at a point, by channel: the ground map differs by channel, the others do not.
 static void list_terms(const ambient_field *f, const float position[3], const float normal[3],
                        float terms[3][TERM_LIMIT])
@@ -56,7 +46,7 @@ static void list_terms(const ambient_field *f, const float position[3], const fl
         t[1] = down;
         break;
     case ALP_AMBIENT_CUBE:
-        list_cube_terms(n, t);
+        alpi_ambient_cube_weights(n, t);
         break;
     case ALP_AMBIENT_ENVIRONMENT:
         alpi_sh9_irradiance_weights(n, t);

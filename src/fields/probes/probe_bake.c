@@ -12,6 +12,7 @@
 #include "transport/examine.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { RAYS_LEAST = 384, RAYS_MOST = 1572864, HELD_OUT = 2048, HELD_OUT_PATHS = 64 };
@@ -49,6 +50,13 @@ static alp_result check(const alp_scene *scene, const alp_probe_options *o)
     if (o->positions != NULL && o->position_count == 0) {
         return alpi_fail(scene->context, code, "probes: no positions");
     }
+    if (o->positions != NULL && o->gradients) {
+        return alpi_fail(scene->context, code, "probes: listed places have no gradients");
+    }
+    if (o->layers && o->gradients) {
+        return alpi_fail(scene->context, code,
+                         "probes: gradients are of all light, which layers part; leave one out");
+    }
     if (o->positions != NULL && o->position_count > LIST_LIMIT) {
         return alpi_fail(scene->context, ALP_ERROR_LIMIT, "probes: %u positions, at most %d",
                          o->position_count, LIST_LIMIT);
@@ -80,6 +88,26 @@ typedef struct probe_job {
     alpi_probe_volume *volume;
 } probe_job;
 
+/// The options of a bake, as JSON.
+static char *describe(const probe_job *job)
+{
+    static const char *const skies[] = {"none", "constant", "hemisphere", "image", "clear"};
+    const alp_probe_options *o = job->o;
+    const alp_sun_options *sun = &o->lighting.sun;
+    char bounces[16] = "\"converge\"";
+    if (o->bounces != ALP_BOUNCES_CONVERGE) {
+        snprintf(bounces, sizeof bounces, "%u", o->bounces);
+    }
+    return alpi_format(job->scene->context,
+                       "{\"bounces\":%s,\"sky\":\"%s\",\"sky_strength\":%.9g,\"sun_lux\":%.9g,"
+                       "\"sun_azimuth\":%.9g,\"sun_elevation\":%.9g,\"lamps\":%u,"
+                       "\"one_sided\":%s,\"metals_black\":%s,\"atlas\":%u}",
+                       bounces, skies[o->lighting.sky.kind], (double)o->lighting.sky.strength,
+                       (double)sun->illuminance, (double)sun->azimuth, (double)sun->elevation,
+                       o->lighting.lamp_count, o->one_sided ? "true" : "false",
+                       job->scene->metals_black ? "true" : "false", o->atlas_size);
+}
+
 static alp_result prepare_volume(probe_job *job)
 {
     const alp_probe_options *o = job->o;
@@ -93,7 +121,8 @@ static alp_result prepare_volume(probe_job *job)
         ALP_TRY(alpi_probe_lattice(job->scene, o, v));
     }
     v->layer_count = job->layers.count;
-    ALP_TRY(alpi_probe_volume_allocate(job->scene->context, o->gradients, o->visibility, v));
+    ALP_TRY(alpi_probe_volume_allocate(job->scene->context, o->gradients,
+                                       o->visibility && !v->is_list, v));
     ALP_TRY(alpi_probe_layers_name(job->lighting, &job->layers, v));
     for (uint32_t i = 0; i < v->count && v->is_list; i++) {
         for (int k = 0; k < 3; k++) {
@@ -101,9 +130,13 @@ static alp_result prepare_volume(probe_job *job)
         }
     }
     v->direct = o->direct;
+    v->without_sky = alpi_lighting_sky(job->space) == NULL;
+    v->without_emission = alpi_lighting_emitter_count(job->space) == 0;
+    v->without_reflected = o->bounces == 0;
     v->scene_hash = job->scene->input_hash;
     v->seed = o->seed;
-    return ALP_OK;
+    v->options = describe(job);
+    return v->options != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
 }
 
 /// Places in the scene, and room for what is found there.
@@ -443,11 +476,11 @@ static alp_result run(probe_job *job)
     if (o->layers) {
         ALP_TRY(alpi_probe_layers_plan(job->scene, job->lighting, &job->layers));
     }
+    ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &o->lighting, &job->space));
     ALP_TRY(prepare_volume(job));
     ALP_TRY(alpi_tracer_for_scene(job->scene, o->progress, o->progress_user, &job->tracer, NULL));
     ALP_TRY(alpi_examine_light(job->tracer, (alpi_trace_filter){.one_sided = o->one_sided},
                                job->scene, job->lighting, o->progress, o->progress_user));
-    ALP_TRY(alpi_lighting_create_without_lamps(job->scene, &o->lighting, &job->space));
     ALP_TRY(alpi_lighting_split_sky(job->space, &o->lighting, &job->soft, &job->spots));
     ALP_TRY(solve(job));
     ALP_TRY(prepare_sampling(job));

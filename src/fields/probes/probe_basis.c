@@ -23,10 +23,5 @@ void alpi_probe_weights(alpi_probe_basis basis, vec3 n, float *weights)
         alpi_sh9_irradiance_weights(n, weights);
         return;
     }
-    const float axis[3] = {n.x, n.y, n.z};
-    for (int k = 0; k < 3; k++) {
-        const float square = axis[k] * axis[k];
-        weights[2 * k] = axis[k] > 0.0f ? square : 0.0f;
-        weights[2 * k + 1] = axis[k] > 0.0f ? 0.0f : square;
-    }
+    alpi_ambient_cube_weights(n, weights);
 }

@@ -202,6 +202,9 @@ static alp_result fill(const alpi_probe_volume *v, alp_probe_lookup lookup, cons
         fill_moments(v, f);
     }
     fill_light(v, strengths, f);
+    if (three) { // as the export has them
+        ALP_TRY(alpi_probe_volume_spread(v, f->stride, f->light));
+    }
     fill_places(v, origin, f);
     return ALP_OK;
 }

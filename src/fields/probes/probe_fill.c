@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-/// Where a ray from one point first meets a surface on its way to another, metres.
+/// Distance at which a ray from one point to another first meets a surface, metres.
 static float first_surface(const alpi_probe_sampling *s, vec3 from, vec3 to)
 {
     const vec3 way = vec3_sub(to, from);

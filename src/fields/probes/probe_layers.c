@@ -13,7 +13,7 @@ static alp_result assign(const alp_scene *scene, const alpi_direct_part *parts, 
         const bool lamp = parts[i].kind == ALPI_DIRECT_LIGHT;
         layers->part_layers[i] = ALPI_NONE;
         left += parts[i].kind == ALPI_DIRECT_LIGHTS || parts[i].kind == ALPI_DIRECT_SUNS;
-        if (lamp && layers->count < ALPI_PROBE_LAYER_LIMIT) {
+        if (lamp && layers->count < ALPI_LAMP_LAYER_LIMIT) {
             layers->lamps[layers->count] = parts[i].index;
             layers->part_layers[i] = layers->count++;
         } else if (lamp) {
@@ -29,7 +29,7 @@ static alp_result assign(const alp_scene *scene, const alpi_direct_part *parts, 
         alpi_warn(scene->context, "many-layers", scene->name,
                   "there are more lamps than the %d that get a layer; the others are in the light "
                   "of all probes alone",
-                  ALPI_PROBE_LAYER_LIMIT);
+                  ALPI_LAMP_LAYER_LIMIT);
     }
     layers->light = (alpi_light_layers){.context = scene->context,
                                         .count = layers->count + 1,

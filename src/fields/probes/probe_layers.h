@@ -6,13 +6,13 @@
 #include "fields/probes/probes.h"
 #include "maps/radiosity/light_layers.h"
 
-enum { ALPI_PROBE_LAYER_LIMIT = ALPI_LAYER_LIMIT - 1 }; // the last holds all other light
+enum { ALPI_LAMP_LAYER_LIMIT = ALPI_LAYER_LIMIT - 1 }; // the last holds all other light
 
 typedef struct alpi_probe_layers {
     alpi_light_layers light; // as a radiosity solves them
     uint32_t *part_layers;
-    uint32_t count;                         // of lamps
-    uint32_t lamps[ALPI_PROBE_LAYER_LIMIT]; // the light of each in the lighting
+    uint32_t count;                        // of lamps
+    uint32_t lamps[ALPI_LAMP_LAYER_LIMIT]; // the light of each in the lighting
 } alpi_probe_layers;
 
 /// Plans a layer for each lamp and sun that shines, and one for all other light.

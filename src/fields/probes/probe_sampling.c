@@ -308,7 +308,7 @@ alp_result alpi_probes_light(const alpi_probe_sampling *s, const alpi_probe_ligh
 /// Half the distance of the two places of a difference, in cells.
 static const float GRADIENT_STEP = 0.25f;
 
-/// What a gradient along one axis is made of.
+/// Room for a gradient along one axis.
 typedef struct gradient_work {
     float (*points)[3]; // [count] on one side
     alpi_sphere_light *values;
@@ -335,7 +335,7 @@ static alp_result find_gradient(const alpi_probe_sampling *s, const alpi_probe_l
     for (uint32_t i = 0; i < s->free_count; i++) {
         const size_t probe = s->free_probes[i];
         // A wall nearer than the step would end in the difference.
-        const float scale = s->values[probe].front_distance > step ? 0.5f / step : 0.0f;
+        const float scale = nearest_surface(&s->values[probe]) > step ? 0.5f / step : 0.0f;
         for (size_t c = 0; c < floats; c++) {
             const size_t at = probe * floats + c;
             v->gradients[(probe * 3 + (size_t)axis) * floats + c] =

@@ -23,7 +23,7 @@ void alpi_probe_place(const alpi_probe_volume *volume, uint32_t index, double pl
 alp_result alpi_probe_lattice(const alp_scene *scene, const alp_probe_options *options,
                               alpi_probe_volume *volume);
 
-/// Where probes are sampled.
+/// The places and rays of a sampling.
 typedef struct alpi_probe_sampling {
     alp_context *context;
     const alp_probe_options *options;  // progress is read

@@ -190,9 +190,11 @@ static void print_textures(alpi_bytes *text, const alpi_probe_volume *v, const o
 static void print_origin(alpi_bytes *text, const alpi_probe_volume *v)
 {
     alpi_bytes_print(text,
-                     ",\n\"content\":{\"sky\":true,\"emission\":true,\"reflected\":true,"
+                     ",\n\"content\":{\"sky\":%s,\"emission\":%s,\"reflected\":%s,"
                      "\"direct\":%s},\n\"scene\":{\"hash\":\"%016llx\"}",
-                     v->direct ? "true" : "false", (unsigned long long)v->scene_hash);
+                     v->without_sky ? "false" : "true", v->without_emission ? "false" : "true",
+                     v->without_reflected ? "false" : "true", v->direct ? "true" : "false",
+                     (unsigned long long)v->scene_hash);
     if (v->relative_error > 0.0f && isfinite(v->relative_error)) {
         alpi_bytes_print(text, ",\n\"error\":{\"relative\":");
         alpi_bytes_float(text, v->relative_error);

@@ -79,80 +79,11 @@ static alp_result fill_light(exporter *e)
 
 // --- probes without light ------------------------------------------------------------------------
 
-/// Probes in the order in which they get light: `distance` counts steps to a probe that has some.
-typedef struct spread {
-    uint32_t *order, *distance; // [count]
-    uint32_t found;
-} spread;
-
-/// Neighbour k of a probe; ALPI_NONE beyond the lattice.
-static uint32_t neighbour(const alpi_probe_volume *v, uint32_t probe, int k)
-{
-    const uint32_t strides[3] = {1, v->size[0], v->size[0] * v->size[1]};
-    const int axis = k / 2;
-    const uint32_t at = probe / strides[axis] % v->size[axis];
-    if (k % 2 == 0) {
-        return at > 0 ? probe - strides[axis] : ALPI_NONE;
-    }
-    return at + 1 < v->size[axis] ? probe + strides[axis] : ALPI_NONE;
-}
-
-/// The mean of neighbours that are one step nearer to light.
-static void mix_neighbours(exporter *e, const spread *s, uint32_t probe)
-{
-    uint32_t count = 0;
-    float sum[VALUES] = {0.0f};
-    for (int k = 0; k < 6; k++) {
-        const uint32_t n = neighbour(e->volume, probe, k);
-        if (n == ALPI_NONE || s->distance[n] != s->distance[probe] - 1) {
-            continue;
-        }
-        count++;
-        for (int i = 0; i < VALUES; i++) {
-            sum[i] += e->light[n][i];
-        }
-    }
-    for (int i = 0; i < VALUES && count > 0; i++) {
-        e->light[probe][i] = sum[i] / (float)count;
-    }
-}
-
 /// three.js interpolates between all probes of a cell: black ones inside solids would darken the
 /// walls. They take light from their neighbours, nearest first.
-static alp_result spread_light(exporter *e, spread *s)
-{
-    const alpi_probe_volume *v = e->volume;
-    ALPI_TRY_NEW(v->context, s->order, v->count);
-    ALPI_TRY_NEW(v->context, s->distance, v->count);
-    for (uint32_t i = 0; i < v->count; i++) {
-        s->distance[i] = v->states[i] == ALPI_PROBE_INVALID ? ALPI_NONE : 0;
-        if (s->distance[i] == 0) {
-            s->order[s->found++] = i;
-        }
-    }
-    for (uint32_t i = 0; i < s->found; i++) {
-        const uint32_t probe = s->order[i];
-        if (s->distance[probe] > 0) {
-            mix_neighbours(e, s, probe);
-        }
-        for (int k = 0; k < 6; k++) {
-            const uint32_t n = neighbour(v, probe, k);
-            if (n != ALPI_NONE && s->distance[n] == ALPI_NONE) {
-                s->distance[n] = s->distance[probe] + 1;
-                s->order[s->found++] = n;
-            }
-        }
-    }
-    return ALP_OK;
-}
-
 static alp_result fill_dark_probes(exporter *e)
 {
-    spread s = {0};
-    const alp_result result = spread_light(e, &s);
-    alpi_release(e->volume->context, s.order);
-    alpi_release(e->volume->context, s.distance);
-    return result;
+    return alpi_probe_volume_spread(e->volume, VALUES, e->light[0]);
 }
 
 // --- the texture ---------------------------------------------------------------------------------

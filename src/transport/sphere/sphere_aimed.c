@@ -22,8 +22,8 @@ static vec3 hemisphere(const alpi_sphere_aim *aim, uint32_t sample)
     return sample % 2 == 0 ? aim->axis : vec3_scale(aim->axis, -1.0f);
 }
 
-/// What a sample brings if nothing is in between: radiance times solid angle, over the samples of
-/// its side. @return false: nothing
+/// Draws a sample, and the light that it brings if nothing is in between: radiance times solid
+/// angle, over the samples of its side. @return false: nothing
 static bool draw(const alpi_sphere_aim *aim, uint32_t sample, alpi_light_sample *s, vec3 *given)
 {
     // Both sides draw alike. The sources are chosen in the order of the samples, so that those of

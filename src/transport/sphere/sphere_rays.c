@@ -343,8 +343,8 @@ alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progre
         .coherent = alpi_tracer_triangle_count(from->tracer) < COHERENT_TRIANGLES,
         .in_pairs = r->face >= PAIRED_FACE,
     };
-    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    told.units_per_item = (double)alpi_sphere_rays_count(r);
-    told.units_are_rays = true;
-    return alpi_parallel_for(r->context, job->count, 1, gather_points, &run, &told);
+    alpi_task_progress counted = progress != NULL ? *progress : (alpi_task_progress){0};
+    counted.units_per_item = (double)alpi_sphere_rays_count(r);
+    counted.units_are_rays = true;
+    return alpi_parallel_for(r->context, job->count, 1, gather_points, &run, &counted);
 }

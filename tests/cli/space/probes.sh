@@ -10,7 +10,7 @@ $probes --spacing .2 --threads 1 -o one.probes.json && cmp room.probes.ktx2 one.
     echo "same bits"
 $probes --spacing .2 --export three -o web.probes.json && ls web*
 for options in "--spacing 0" "--spacing nan" "--bounds 1,2" "--export-scale 2" "--at a.csv --spacing 1" \
-    "--split rooms" "--basis ambient-cube --export three" "--export bevy"; do
+    "--split rooms" "--at a.csv --gradients" "--layers --gradients" "--bounds 1,1,1,1,1,1" "--basis ambient-cube --export three" "--export bevy"; do
     $probes $options -o x.probes.json 2>&1 | head -n 1
 done
 alpenglow probes builtin:cornell 2>&1 | head -n 1
@@ -18,6 +18,7 @@ alpenglow probes builtin:cornell -o x.txt 2>&1 | head -n 1
 $probes --spacing 1e-4 -o x.probes.json || echo "exit $?"
 $probes --bounds 9,9,9,10,10,10 --spacing 1 -o x.probes.json -f; rm -f x.*
 printf 'x,y,z\n.2 .2 .2\n# a comment\n.3;.3;.3;1\n' | $probes --at - -o list.probes.json && ls list*
+printf "0,,0.3,0.1\n" >bad.csv; $probes --at bad.csv -o x.probes.json || echo "exit $?"
 for text in '1,2' '1,2,nan' '1,2,x' ''; do
     printf '%s\n' "$text" >bad.csv
     $probes --at bad.csv -o x.probes.json || echo "exit $?"

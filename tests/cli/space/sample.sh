@@ -15,7 +15,7 @@ $sample --with probes --probes room.probes.json >file.csv &&
         FNR > 1 && ($7 - r[FNR])^2 > (.002 * $7)^2 {bad = 1} END {print (bad ? "differs" : "agrees")}' \
         file.csv -
 for options in "" "--with probes --samples 9" "--with constant --spacing 1" "--with lpv" "--with x" \
-    "--with probes --probes room.probes.json --spacing 1"; do
+    "--with probes --probes room.probes.json --spacing 1" "--with probes --probes room.probes.json --direct on"; do
     $sample $options 2>&1 | head -n 1
 done
 alpenglow sample builtin:cornell --with constant 2>&1 | head -n 1
