@@ -20,7 +20,7 @@ SUN = ["--sky", "clear", "--sun", "335,50,60000"]
 # Sun and sky need one exposure, so that direct light and all light compare.
 LIT = ["--with", "lightmap", "--size", "1024", *SUN, "--exposure", "-12.3"]
 STRIP = [
-    ["--with", "constant"],
+    ["--with", "albedo"],
     ["--with", "ao", "--ao-samples", "1024"],
     [*LIT, "--bounces", "0"],
     [*LIT],
@@ -47,6 +47,21 @@ def teapot_room(command, out):
                    check=True)
 
 
+def space(command, out):
+    """The teapot room by models of light in space, in a row; a white ball is lit by each."""
+    pictures = []
+    with tempfile.TemporaryDirectory() as folder:
+        for options in [["constant"], ["environment"], ["probes", "--spacing", "0.25"],
+                        ["reference", "--samples", "1024"]]:
+            picture = folder + "/picture.png"
+            subprocess.run([command, "render", "builtin:teapot-room", "-o", picture, "-f", "-q",
+                            "--resolution", f"{WIDTH}x{HEIGHT}", "--samples", "64", "--exposure",
+                            "0", "--object", "sphere,1.1,0.3,0.6,0.2", "--with", *options],
+                           check=True)
+            pictures.append(read_png(picture))
+    write_png(out, [b"".join(rows) for rows in zip(*pictures)])
+
+
 def script(name, *arguments):
     return lambda command, out: subprocess.run(
         [sys.executable, os.path.join(HERE, name), command, out, *arguments], check=True)
@@ -55,6 +70,7 @@ def script(name, *arguments):
 PICTURES = {  # name: how it is made, and whether it is quick
     "atrium": (atrium, True),
     "teapot-room": (teapot_room, True),
+    "space": (space, True),
     "plates": (script("make_plates.py"), True),
     "blend-borders": (script("make_borders.py"), True),
     "windows": (script("make_windows.py", "192"), False),

@@ -40,7 +40,7 @@ static double read_as(alp_sh_convention convention, const float *v, int k, vec3 
         return x * x * c[x < 0.0 ? 1 : 0] + y * y * c[y < 0.0 ? 3 : 2] + z * z * c[z < 0.0 ? 5 : 4];
     }
     }
-    return NAN;
+    return (double)NAN;
 }
 
 TEST(readers_get_the_same_irradiance)
