@@ -52,11 +52,11 @@ def space(command, out):
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
         for options in [["constant"], ["environment"], ["probes", "--spacing", "0.25"],
-                        ["reference", "--samples", "1024"]]:
+                        ["reference", "--samples", "256"]]:
             picture = folder + "/picture.png"
             subprocess.run([command, "render", "builtin:teapot-room", "-o", picture, "-f", "-q",
                             "--resolution", f"{WIDTH}x{HEIGHT}", "--samples", "64", "--exposure",
-                            "0", "--object", "sphere,1.1,0.3,0.6,0.2", "--with", *options],
+                            "0", "--object", "sphere,0.9,0.25,-0.2,0.25", "--with", *options],
                            check=True)
             pictures.append(read_png(picture))
     write_png(out, [b"".join(rows) for rows in zip(*pictures)])

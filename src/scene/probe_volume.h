@@ -49,7 +49,7 @@ typedef struct alpi_probe_volume {
     alpi_probe_layer *layers; // [layer_count]
     // Visibility, or NULL: octahedral map of ALPI_PROBE_MOMENT_SIDE² directions, row by row, of the
     // mean distance to surfaces [m] and the mean of its square [m²], both of distances clamped to
-    // `reach` and to 1.2 times the lower quartile of the texel.
+    // `reach` and to twice the median of the texel.
     float (*moments)[2]; // [count][64]
     float reach;         // metres
     // Content.

@@ -2,7 +2,7 @@
 #include "transport/sphere/sphere_moments.h"
 
 enum { BINS = ALPI_MOMENT_BINS };
-static const double QUARTER = 0.25, LONGEST = 1.2; // of the quartile
+static const double LONGEST = 2.0; // medians
 
 void alpi_sphere_moments_add(const alpi_sphere_loops *loops, const alpi_sphere_packet *packets,
                              const alpi_hits *hits, uint32_t count, float reach,
@@ -23,12 +23,12 @@ void alpi_sphere_moments_add(const alpi_sphere_loops *loops, const alpi_sphere_p
     }
 }
 
-/// The mean distance of the bin in which the lower quartile lies.
-static double find_quartile(const double (*bins)[3], double weight)
+/// The mean distance of the bin in which the median lies.
+static double find_median(const double (*bins)[3], double weight)
 {
     double below = 0.0;
     int bin = 0;
-    for (; bin + 1 < BINS && below + bins[bin][0] < QUARTER * weight; bin++) {
+    for (; bin + 1 < BINS && below + bins[bin][0] < 0.5 * weight; bin++) {
         below += bins[bin][0];
     }
     return bins[bin][0] > 0.0 ? bins[bin][1] / bins[bin][0] : 0.0;
@@ -42,7 +42,7 @@ void alpi_sphere_moments_finish(const alpi_sphere_moments *moments, float reach,
         for (int b = 0; b < BINS; b++) {
             weight += bins[b][0];
         }
-        const double most = LONGEST * find_quartile(bins, weight);
+        const double most = LONGEST * find_median(bins, weight);
         for (int b = 0; b < BINS; b++) {
             const bool beyond = bins[b][1] > most * bins[b][0];
             sum += beyond ? most * bins[b][0] : bins[b][1];
