@@ -3,8 +3,8 @@
 //
 // A texel near the edge of a close surface, or one that meets it at a grazing angle, has rays that
 // go past it. Their long distances would raise mean and variance until the surface hides nothing.
-// So distances beyond twice the texel's median count as that. A lower limit leaks less light, but it
-// hides visible surfaces at grazing angles, which shows as specks.
+// So distances beyond twice the texel's median count as that. A lower limit leaks less light, but
+// it hides visible surfaces at grazing angles, which shows as specks.
 #ifndef ALPI_TRANSPORT_SPHERE_MOMENTS_H
 #define ALPI_TRANSPORT_SPHERE_MOMENTS_H
 
