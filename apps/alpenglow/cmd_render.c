@@ -80,7 +80,7 @@ static int read_camera(const char *text, const double origin[3], alp_render_opti
     return EXIT_DONE;
 }
 
-/// What the choices of --with are, in their order.
+/// Methods and models of the choices of --with, in their order.
 static const struct {
     alp_render_method method;
     int model; // of FIELD: an ambient model, or PROBES

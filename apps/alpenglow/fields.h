@@ -5,7 +5,7 @@
 
 #include "session.h"
 
-/// What makes the field of a command.
+/// The parts behind the field of a command.
 typedef struct field_source {
     alp_field *field;   // owned
     alp_probes *probes; // owned, or NULL

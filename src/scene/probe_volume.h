@@ -80,7 +80,7 @@ alp_result alpi_probe_volume_allocate(alp_context *context, bool gradients, bool
 /// @param light [count][floats] in, out
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_probe_volume_spread(const alpi_probe_volume *volume, uint32_t floats, float *light);
-/// Releases the arrays, and leaves it zeroed. Of all zeros it does nothing.
+/// Releases the arrays, and leaves it zeroed. A zeroed volume is left alone.
 void alpi_probe_volume_destroy(alpi_probe_volume *volume);
 
 #endif

@@ -4,7 +4,7 @@
 #include "field_scenes.h"
 #include "test_small_bake.h"
 
-/// What fails.
+/// A call whose allocations fail in turn.
 typedef alp_result make_field(const alp_scene *scene, alp_progress_fn *progress);
 
 static alp_result bake(const alp_scene *scene, alp_progress_fn *progress, bool layers)
