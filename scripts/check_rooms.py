@@ -68,7 +68,7 @@ SUB_ROOMS = {
         "seams": ["texels", "."],
         "vertex": ["."],
     },
-    "fields": {".": [], "ambient": ["."], "probes": ["."]},
+    "fields": {".": [], "ambient": ["."], "probes": ["."], "ambience": ["."]},
     "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["files", "light", "."]},
 }
 
@@ -77,8 +77,8 @@ PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "sh": "sh", "shared_constants": "sh", "display": "film", "film": "film", "light": "scene",
     "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
-    "field": "fields", "probes": "fields", "render": "render", "doctor": "doctor",
-    "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
+    "field": "fields", "probes": "fields", "ambience": "fields", "render": "render",
+    "doctor": "doctor", "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
 }
 
 # header of another project: where it may be included (a folder below src/, "apps", or one file)

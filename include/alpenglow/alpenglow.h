@@ -3,6 +3,7 @@
 #ifndef ALPENGLOW_ALPENGLOW_H
 #define ALPENGLOW_ALPENGLOW_H
 
+#include <alpenglow/ambience.h>
 #include <alpenglow/atlas.h>
 #include <alpenglow/bake.h>
 #include <alpenglow/compare.h>

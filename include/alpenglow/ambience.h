@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Live light in space: a volume of spherical harmonics that follows the camera and the sun.
+//
+// Light is sampled at anchors, points of a lattice that is finer near the camera. A host either
+// lets rays sample them (alp_ambience_sampler), or renders cube faces itself:
+//
+//     alp_ambience_update(ambience, time);                 // each frame
+//     while (alp_ambience_next(ambience, &camera, &request) == ALP_OK && request.id != 0) {
+//         … render the six faces at request.position …
+//         alp_ambience_submit_faces(ambience, request.id, 16, faces);
+//     }
+//     const alp_ambience_snapshot *now = alp_ambience_begin_read(ambience);
+//     alp_ambience_irradiance(now, count, positions, normals, irradiance);
+//     alp_ambience_end_read(ambience, now);
+//
+// One thread calls create, update, next, sample and destroy. Any thread may submit and read.
+// Based on: C. Nilsson, A. Jansson. Ljussättning i realtid med dynamisk ambiansvolym (Real-time
+//           lighting with a dynamic ambience volume). Master's thesis, Chalmers, 2006.
+#ifndef ALPENGLOW_AMBIENCE_H
+#define ALPENGLOW_AMBIENCE_H
+
+#include <alpenglow/field.h>
+#include <alpenglow/sh.h>
+
+ALP_BEGIN_DECLS
+
+typedef struct alp_ambience alp_ambience;                   ///< opaque
+typedef struct alp_ambience_snapshot alp_ambience_snapshot; ///< one frame's light, immutable
+
+/// How the light between anchors is interpolated.
+typedef enum alp_ambience_lookup {
+    /// Level by level, the eight anchors of the lattice round the point, by trilinear weight ×
+    /// confidence. The next coarser level provides the confidence that is missing to 1.
+    ALP_AMBIENCE_OURS = 0,
+    /// The rule of 2006: the nearest anchor of each octant round the node of the point, weighed by
+    /// distance; a coarser level only where there is none. Jumps in space and time.
+    ALP_AMBIENCE_CONFORMANCE
+} alp_ambience_lookup;
+
+typedef struct alp_ambience_options {
+    size_t struct_size;
+    double centre[3]; ///< metres: the centre of the root; default 0, 0, 0
+    double size;      ///< metres along an edge of the root, > 0; default 243. It grows beyond.
+    uint32_t depth;   ///< levels below the root, [1, 10]; default 5: cells of size / 3^depth
+    /// Anchors of a plane in place of a volume: nodes have 9 children. Positions are read along x
+    /// and z; y is that of `height` + `above`. Default false.
+    bool flat;
+    double above; ///< flat: metres of the anchors above the ground, ≥ 0; default 1.5
+    /// flat: height of the ground [m] at x, z. NULL (default): 0, or the scene of the sampler
+    double (*height)(void *user, double x, double z);
+    void *height_user;
+    double lifetime; ///< seconds that an anchor's light is valid, > 0; default 6
+    double fade;     ///< seconds that new light takes to replace old, at least, ≥ 0; default 1
+    uint32_t anchor_limit; ///< anchors that may be held, [64, 1048576]; default 4096
+    bool visibility;       ///< distances are kept against light through walls; default true
+    alp_ambience_lookup lookup;
+} alp_ambience_options;
+ALP_API alp_ambience_options alp_ambience_options_default(void);
+
+/// @param options NULL = defaults
+/// @return ALP_OK; INVALID_ARGUMENT (an option out of range); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_ambience_create(alp_context *context,
+                                                     const alp_ambience_options *options,
+                                                     alp_ambience **ambience);
+/// NULL does nothing. Snapshots must have been given back, and fields destroyed.
+ALP_API void alp_ambience_destroy(alp_ambience *ambience);
+
+/// Moves to a time: fades new light in and expired light out, prunes branches without light, and
+/// publishes a snapshot.
+/// @param time seconds, finite, not before the last
+/// @return ALP_OK; INVALID_ARGUMENT (nothing changes); OUT_OF_MEMORY (the old snapshot stays)
+ALP_API ALP_NODISCARD alp_result alp_ambience_update(alp_ambience *ambience, double time);
+
+/// Where the camera is and goes.
+typedef struct alp_ambience_camera {
+    double position[3]; ///< metres
+    double velocity[3]; ///< metres per second
+    double forward[3];  ///< where it looks, any length; 0 = not known
+    double vfov;        ///< radians of its vertical field of view; 0 = not known
+    /// Objects that ambience lights: anchors round them come first. [object_count][4]: centre and
+    /// radius, metres. May be NULL.
+    const double (*objects)[4];
+    uint32_t object_count;
+    /// A path that is known: [path_count][4] time, x, y, z, in the order of time. NULL: the
+    /// position is predicted from velocity.
+    const double (*path)[4];
+    uint32_t path_count;
+} alp_ambience_camera;
+
+/// A place whose light is wanted.
+typedef struct alp_ambience_request {
+    uint64_t id;        ///< 0: nothing is wanted
+    double position[3]; ///< metres
+    double cell;        ///< metres between anchors there
+    bool renewal;       ///< it has light, which gets old
+    bool relight;       ///< alone the lighting changed since its rays were traced
+} alp_ambience_request;
+
+/// Chooses the next anchor to sample: missing ones round the camera first, coarse before fine, then
+/// those whose light gets old. A request that is not answered within a lifetime is void.
+/// @return ALP_OK (request->id = 0: nothing is wanted); INVALID_ARGUMENT (camera not finite);
+///         OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_ambience_next(alp_ambience *ambience,
+                                                   const alp_ambience_camera *camera,
+                                                   alp_ambience_request *request);
+/// Light at a request. It fades in from the next update on. From any thread.
+/// @param radiance c_lm [W·m⁻²]
+/// @return ALP_OK; INVALID_ARGUMENT (not finite; the request is not open: answered, or void)
+ALP_API ALP_NODISCARD alp_result alp_ambience_submit(alp_ambience *ambience, uint64_t id,
+                                                     const alp_sh9 *radiance);
+/// The same from six faces of a cube map.
+/// @param faces +x −x +y −y +z −z, of side × side pixels of radiance, as alp_sh_project_cube reads
+ALP_API ALP_NODISCARD alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id,
+                                                           uint32_t side,
+                                                           const float *const faces[6]);
+/// Says that a request lies in a solid: it gets no light.
+ALP_API ALP_NODISCARD alp_result alp_ambience_submit_solid(alp_ambience *ambience, uint64_t id);
+/// All light is out of date: lamps moved (`traced` false: rays need not be traced again), or
+/// geometry changed (true). Within a box, metres; NULL = everywhere.
+ALP_API void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double box_min[3],
+                                     const double box_max[3]);
+
+/// The snapshot of the last update. Takes no lock and does not wait. From any thread.
+/// @return never NULL; give it back by alp_ambience_end_read
+ALP_API const alp_ambience_snapshot *alp_ambience_begin_read(alp_ambience *ambience);
+ALP_API void alp_ambience_end_read(alp_ambience *ambience, const alp_ambience_snapshot *snapshot);
+
+/// E(p, n) [W·m⁻²] at points. Allocates nothing; any number of threads.
+/// @param positions [count][3] metres   @param normals [count][3] unit
+/// @param irradiance [count][3] out: ≥ 0; 0 at points that are not finite, and without any light
+ALP_API void alp_ambience_irradiance(const alp_ambience_snapshot *snapshot, uint32_t count,
+                                     const double (*positions)[3], const float (*normals)[3],
+                                     float (*irradiance)[3]);
+/// Radiance at a point as spherical harmonics; alp_sh_shader_vectors makes 12 vectors of it.
+ALP_API void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot,
+                                       const double position[3], alp_sh9 *radiance);
+
+typedef struct alp_ambience_info {
+    uint32_t anchors;  ///< that hold light
+    uint32_t solids;   ///< that lie in solids
+    uint32_t nodes;    ///< of the graph
+    uint32_t levels;   ///< of the graph, the root included
+    uint32_t open;     ///< requests that are not answered
+    uint64_t bytes;    ///< the graph, all anchors and snapshots
+    uint64_t bytes_visibility; ///< of these: distances
+    uint64_t bytes_hits;       ///< of these: kept hits
+    double time;       ///< of the last update
+    double cell;       ///< metres between anchors of the finest level that holds light
+} alp_ambience_info;
+ALP_API alp_ambience_info alp_ambience_get_info(const alp_ambience *ambience);
+
+// --- sampling by rays ----------------------------------------------------------------------------
+
+/// Samples anchors with rays through a scene. Light that bounces more than once comes from the
+/// volume itself.
+typedef struct alp_ambience_sampler alp_ambience_sampler;
+
+typedef struct alp_ambience_sampler_options {
+    size_t struct_size;
+    alp_lighting_options lighting; ///< beside the lights of the file
+    uint32_t face;       ///< rays along an edge of a face, multiple of 4, [4, 64]; default 16
+    uint32_t first_face; ///< the same of an anchor's first sample; default 8
+    bool bounces;        ///< light that bounces more than once; default true
+    bool direct;         ///< light straight from punctual lamps and suns is in it; default false
+    bool keep_hits;      ///< hits are kept, to relight them; default true
+    uint64_t seed;
+} alp_ambience_sampler_options;
+ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
+
+/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene);
+///         OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+ALP_API ALP_NODISCARD alp_result
+alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *scene,
+                            const alp_ambience_sampler_options *options,
+                            alp_ambience_sampler **sampler);
+/// NULL does nothing. Before the ambience and the scene.
+ALP_API void alp_ambience_sampler_destroy(alp_ambience_sampler *sampler);
+/// Changes the light: a sun moved, or a lamp was switched. Anchors are relit, old ones first.
+ALP_API ALP_NODISCARD alp_result
+alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
+                                  const alp_lighting_options *lighting);
+
+/// Work of one call.
+typedef struct alp_ambience_work {
+    uint32_t samples; ///< anchors that were traced and lit
+    uint32_t relit;   ///< anchors whose kept hits were relit
+    uint64_t rays;
+    double seconds;
+} alp_ambience_work;
+
+/// Samples the anchors that alp_ambience_next wants, on all workers of the context.
+/// @param samples      anchors at most; what relights costs a half
+/// @param milliseconds 0, or stop after about so long: then light depends on the clock
+/// @param work         NULL, or out
+/// @return as alp_ambience_next
+ALP_API ALP_NODISCARD alp_result alp_ambience_sample(alp_ambience_sampler *sampler,
+                                                     const alp_ambience_camera *camera,
+                                                     uint32_t samples, double milliseconds,
+                                                     alp_ambience_work *work);
+
+/// A field that reads the snapshot of the last update, and keeps it until it is destroyed.
+/// @return ALP_OK; OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_field_create_ambience(alp_ambience *ambience,
+                                                           alp_field **field);
+
+ALP_END_DECLS
+
+#endif
