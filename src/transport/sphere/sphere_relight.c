@@ -200,7 +200,7 @@ static void add_lamps(const alpi_sphere_hits_run *run, uint32_t lit, alpi_sphere
 
 // --- light that bounced --------------------------------------------------------------------------
 
-/// Places that hits of a batch share.
+/// Places that hits of a batch share: the means of those hits.
 typedef struct shared_places {
     uint32_t count;
     vec3 points[BATCH * ALPI_PACKET], normals[BATCH * ALPI_PACKET];
@@ -208,32 +208,37 @@ typedef struct shared_places {
 } shared_places;
 _Static_assert(BATCH *ALPI_PACKET <= 256, "places are numbered in a byte");
 
+/// Hits of a packet that are near the first of them share a place.
 static void share_places(const alpi_sphere_relight *how, uint32_t lit, const alpi_sphere_met *m,
                          uint8_t of[ALPI_PACKET], shared_places *places)
 {
-    const uint32_t first = places->count;
-    float limits[ALPI_PACKET]; // squares, of the places of this packet
-    for (; lit != 0; lit &= lit - 1) {
-        const int i = __builtin_ctz(lit);
-        const vec3 point = lane_of(m->position, i), normal = lane_of(m->normal, i);
-        uint32_t k = first;
-        for (; k < places->count; k++) {
-            const vec3 apart = vec3_sub(point, places->points[k]);
-            if (vec3_dot(apart, apart) < limits[k - first] &&
-                vec3_dot(normal, places->normals[k]) > LEAST_COSINE) {
-                break;
+    while (lit != 0) {
+        const int first = __builtin_ctz(lit);
+        const vec3 point = lane_of(m->position, first), normal = lane_of(m->normal, first);
+        const float cell = how->bounce_cell_scale * m->distance[first];
+        const float limit = NEAR * (cell > how->bounce_cell_least ? cell : how->bounce_cell_least);
+        vec3 points = point, normals = normal;
+        float count = 1.0f;
+        of[first] = (uint8_t)places->count;
+        lit &= lit - 1;
+        for (uint32_t others = limit > 0.0f ? lit : 0; others != 0; others &= others - 1) {
+            const int i = __builtin_ctz(others);
+            const vec3 p = lane_of(m->position, i), n = lane_of(m->normal, i);
+            const vec3 apart = vec3_sub(p, point);
+            if (vec3_dot(apart, apart) < limit * limit && vec3_dot(n, normal) > LEAST_COSINE) {
+                points = vec3_add(points, p);
+                normals = vec3_add(normals, n);
+                count += 1.0f;
+                of[i] = (uint8_t)places->count;
+                lit &= ~(1u << i);
             }
         }
-        if (k == places->count) {
-            const float cell = how->bounce_cell_scale * m->distance[i];
-            const float limit =
-                NEAR * (cell > how->bounce_cell_least ? cell : how->bounce_cell_least);
-            limits[k - first] = limit * limit;
-            places->points[k] = point;
-            places->normals[k] = normal;
-            places->count++;
+        if (count > 1.0f) {
+            points = vec3_scale(points, 1.0f / count);
+            normals = vec3_scale(normals, 1.0f / vec3_length(normals));
         }
-        of[i] = (uint8_t)k;
+        places->points[places->count] = points;
+        places->normals[places->count++] = normals;
     }
 }
 
