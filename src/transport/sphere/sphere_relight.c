@@ -6,6 +6,7 @@
 #include "transport/paths/panes.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { BATCH = ALPI_SPHERE_BATCH, USE_HIT = 11, USE_CHOICE = 12 };
 static const float NEAR = 0.25f;        // of a cell: hits that share a call
@@ -25,6 +26,16 @@ static void add_lane(float (*values)[ALPI_PACKET], int lane, vec3 v)
 
 // --- surfaces ------------------------------------------------------------------------------------
 
+/// Whether all rays of a packet left the scene.
+static bool is_open(const alpi_sphere_hit hits[ALPI_PACKET])
+{
+    uint32_t all = ALPI_NONE;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        all &= hits[i].triangle;
+    }
+    return all == ALPI_NONE;
+}
+
 /// Reads what a packet met. @return bits of the lanes that met a side which is not black
 static uint32_t find_surfaces(const alpi_sphere_hits_work *work, uint32_t packet,
                               const alpi_sphere_hit hits[ALPI_PACKET], const alpi_sphere_packet *p,
@@ -32,6 +43,11 @@ static uint32_t find_surfaces(const alpi_sphere_hits_work *work, uint32_t packet
 {
     const alp_scene *scene = work->run->how->scene;
     uint32_t lit = 0;
+    if (is_open(hits)) {
+        memset(m->irradiance, 0, sizeof m->irradiance);
+        memset(m->albedo, 0, sizeof m->albedo);
+        return 0;
+    }
     m->key = alpi_hash32(work->key ^ alpi_hash32(USE_HIT));
     m->first = packet * ALPI_PACKET;
     for (int i = 0; i < ALPI_PACKET; i++) {
