@@ -67,7 +67,6 @@ static alp_result prepare(hits_bench *b, bool quick)
                                    .tracer = b->scene.tracer,
                                    .lighting = b->lighting,
                                    .bounce_cell_scale = 0.3f,
-                                   .reach = 1.0f,
                                    .seed = 1};
     return place_points(b, quick ? QUICK_POINTS : POINTS);
 }
@@ -77,6 +76,7 @@ static double time_points(hits_bench *b, bool keep, bool traced)
 {
     for (uint32_t i = 0; i < b->count; i++) {
         b->points[i].face = b->face;
+        b->points[i].reach = 1.0f;
         b->points[i].hits =
             keep ? b->hits + (size_t)i * alpi_sphere_hits_count(ALPI_HITS_FACE_MOST) : NULL;
         b->points[i].traced = traced;

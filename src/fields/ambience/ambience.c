@@ -93,6 +93,7 @@ static alp_result create(alp_ambience *a)
     const uint32_t chain = (o->depth + 2) * ALPI_GRAPH_CHILDREN;
     a->unit = o->size / (double)alpi_graph_width(o->depth);
     a->free_anchor = ALPI_NO_ANCHOR;
+    a->rate = 1e6; // until hosts show otherwise
     a->time = a->first_time = a->planned_time = NAN;
     ALP_TRY(alpi_graph_create(a->context, o->flat, o->depth, NODES_EACH * o->anchor_limit + chain,
                               &a->graph));
@@ -167,6 +168,19 @@ static void find_base(alp_ambience *a)
     }
 }
 
+/// How many anchors a second the host samples. While it samples all that are wanted, more may be.
+static void find_rate(alp_ambience *a, double step)
+{
+    if (!(step > 0.0)) {
+        return;
+    }
+    const double keep = exp(-step), now = (double)a->taken / step;
+    const bool starved = a->planned && a->wish_count > 0;
+    a->rate = starved ? keep * a->rate + (1.0 - keep) * now : fmax(a->rate * (1.0 + step), now);
+    a->rate = fmin(a->rate, 1e6);
+    a->taken = 0;
+}
+
 alp_result alp_ambience_update(alp_ambience *ambience, double time)
 {
     alp_ambience *a = ambience;
@@ -186,11 +200,7 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
     find_base(a);
-    if (step > 0.0) { // smoothed over about a second
-        const double keep = exp(-step);
-        a->rate = keep * a->rate + (1.0 - keep) * (double)a->taken / step;
-        a->taken = 0;
-    }
+    find_rate(a, step);
     a->planned = false;
     return alpi_snapshot_publish(a);
 }

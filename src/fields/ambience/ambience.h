@@ -41,6 +41,7 @@ typedef struct alpi_anchor {
     float solid_time;                  // seconds since it was found to be a solid
     float change;                      // relative change of E at its last renewal
     double born;                       // when its newest light was sampled
+    double wanted;                     // when a window last held it
     uint32_t version;                  // grows whenever what readers see changes
     uint32_t next_free;
     void *hits;         // the sampler's
@@ -82,7 +83,7 @@ struct alp_ambience {
     bool planned;        // since the last update
     double planned_time; // of the last plan; NaN before
     double velocity[3];  // of the camera, smoothed
-    double rate;            // anchors per second that were sampled lately
+    double rate;            // anchors per second that can be sampled, as far as was seen
     uint32_t taken;         // anchors sampled since the last update
     uint64_t hit_bytes;     // memory of kept hits
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept

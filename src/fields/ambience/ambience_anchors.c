@@ -50,6 +50,7 @@ alp_result alpi_anchor_create(alp_ambience *a, uint32_t node, uint32_t *anchor)
     new->level = top->level;
     new->state = ALPI_ANCHOR_EMPTY;
     new->open = 1.0f;
+    new->wanted = a->time;
     double place[3];
     alpi_ambience_place(a, top->level, top->index, place);
     new->height = (float)place[1];
@@ -112,6 +113,23 @@ static bool is_first(const alp_ambience *a)
     return !(a->time > a->first_time);
 }
 
+/// Distances, which fade as light does. Without any, a renewed anchor keeps its own, and a new one
+/// sees everything.
+static void take_moments(alp_ambience *a, uint32_t anchor, const float (*moments)[2], bool renewed,
+                         bool at_once)
+{
+    static const float far[2] = {1e9f, 1e18f};
+    if (a->moments == NULL) {
+        return;
+    }
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && (moments != NULL || !renewed); i++) {
+        memcpy(a->next_moments[anchor][i], moments != NULL ? moments[i] : far, sizeof far);
+    }
+    if (!renewed || at_once) {
+        memcpy(a->moments[anchor], a->next_moments[anchor], sizeof *a->moments);
+    }
+}
+
 void alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
                        const float (*moments)[2])
 {
@@ -141,18 +159,7 @@ void alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radianc
         memcpy(at->light, at->next, sizeof at->light);
         at->confidence = 1.0f;
     }
-    if (a->moments != NULL) {
-        for (int i = 0; i < ALPI_AMBIENCE_MOMENTS; i++) {
-            for (int k = 0; k < 2; k++) {
-                a->next_moments[anchor][i][k] = moments != NULL ? moments[i][k]
-                                                : k == 0        ? 1e9f
-                                                                : 1e18f;
-            }
-        }
-        if (!renewed || !(fade > 0.0f)) {
-            memcpy(a->moments[anchor], a->next_moments[anchor], sizeof *a->moments);
-        }
-    }
+    take_moments(a, anchor, moments, renewed, !(fade > 0.0f));
     at->leaving = at->pending = at->stale_light = at->stale_trace = false;
     at->born = a->time;
     at->open = 1.0f;

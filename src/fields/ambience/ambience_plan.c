@@ -17,9 +17,11 @@
 enum { WAY_POINTS = 5 };
 static const double AHEAD = 1.0;   // seconds that are predicted
 static const double INERTIA = 0.3; // seconds that smooth the velocity
-static const double RADIUS = 3.5, FLAT_RADIUS = 6.5; // of a window, cells
+static const double RADIUS = 5.0, FLAT_RADIUS = 6.5; // of a window, cells
 static const float RENEWAL = 0.6f;                   // share of the lifetime from which on
 static const float URGENT = 0.85f;                   // the same, before all that is missing
+static const double LEAST_RATE = 30.0;               // anchors per second that any host samples
+static const double CROWDED = 0.6; // share of the limit from which on others fade out early
 static const float RELIGHT = 0.15f; // share of the lifetime after which stale light is urgent
 
 /// What the plan of an update needs.
@@ -259,6 +261,7 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
     const uint32_t node = alpi_graph_find(&a->graph, level, index);
     const uint32_t anchor = node != ALPI_NO_NODE ? a->graph.nodes[node].anchor : ALPI_NO_ANCHOR;
     if (anchor != ALPI_NO_ANCHOR) {
+        a->anchors[anchor].wanted = a->time;
         const float urgency = renewal_urgency(p, &a->anchors[anchor], near);
         if (urgency > 0.0f) {
             add_wish(p, level, index, urgency);
@@ -269,6 +272,20 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
     add_wish(p, level, index,
              4.0f + 2.0f * (float)level +
                  2.0f * interest * (0.3f + expect_change(p, level, index)));
+}
+
+/// Where room gets scarce, anchors that no window holds fade out before they expire.
+static void make_room(alp_ambience *a)
+{
+    if ((double)a->anchor_count < CROWDED * (double)a->options.anchor_limit) {
+        return;
+    }
+    for (uint32_t i = 0; i < a->anchor_end; i++) {
+        alpi_anchor *at = &a->anchors[i];
+        if (at->state != ALPI_ANCHOR_FREE && !at->pending && at->wanted < a->time) {
+            at->born = fmin(at->born, a->time - 10.0 * a->options.lifetime);
+        }
+    }
 }
 
 /// Anchors in the window of a level.
@@ -286,8 +303,8 @@ static bool is_kept_up(const plan *p, uint32_t level)
     const double cell = alpi_ambience_cell(a, level);
     const double across = a->options.flat ? 2.0 * p->radius : ALPI_PI * p->radius * p->radius;
     const double each_second = p->speed / cell * across;
-    const bool room = window_count(p, cell, p->length) <= (double)a->options.anchor_limit / 3.0;
-    return room && (!(a->rate > 0.0) || each_second <= fmax(a->rate, 60.0));
+    const double room = (double)a->options.anchor_limit / 6.0;
+    return window_count(p, cell, p->length) <= room && each_second <= fmax(a->rate, LEAST_RATE);
 }
 
 static void scan_window(plan *p, uint32_t level, uint32_t points)
@@ -351,6 +368,7 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
             scan_window(&p, level, 1);
         }
     }
+    make_room(a);
     if (a->wish_count > 1) {
         qsort(a->wishes, a->wish_count, sizeof *a->wishes, compare_wishes);
     }

@@ -74,6 +74,16 @@ static void copy_nodes(const alp_ambience *a, alp_ambience_snapshot *s)
     }
 }
 
+/// The least mean distance: nearer points are seen whole.
+static float find_clear(const float (*moments)[2])
+{
+    float least = moments[0][0];
+    for (int i = 1; i < ALPI_AMBIENCE_MOMENTS; i++) {
+        least = fminf(least, moments[i][0]);
+    }
+    return least;
+}
+
 static void copy_anchors(const alp_ambience *a, alp_ambience_snapshot *s)
 {
     for (uint32_t i = 0; i < a->anchor_end; i++) {
@@ -89,6 +99,7 @@ static void copy_anchors(const alp_ambience *a, alp_ambience_snapshot *s)
         to->version = from->version;
         if (a->moments != NULL) {
             memcpy(s->moments[i], a->moments[i], sizeof *s->moments);
+            to->clear = find_clear((const float(*)[2])a->moments[i]);
         }
     }
 }
@@ -103,7 +114,12 @@ alp_result alpi_snapshot_publish(alp_ambience *a)
     ALP_TRY(make_room(a, s));
     memcpy(s->centre, a->options.centre, sizeof s->centre);
     memcpy(s->base, a->base, sizeof s->base);
+    s->read = &ALPI_COMPILED_FOR(a->context, alpi_ambience_lookup);
     s->unit = a->unit;
+    s->inverse_unit = 1.0 / a->unit;
+    for (uint32_t level = 0; level < ALPI_GRAPH_LEVELS; level++) {
+        s->level_scale[level] = 1.0 / (double)alpi_graph_width(level);
+    }
     s->time = a->time;
     s->flat = a->options.flat;
     s->lookup = a->options.lookup;

@@ -34,6 +34,7 @@ enum {
 typedef struct alpi_read_anchor {
     float light[ALPI_AMBIENCE_FLOATS]; // c_lm by coefficient and channel
     float confidence, open, height;
+    float clear;      // metres that it sees in all directions
     uint32_t version; // 0: never written
 } alpi_read_anchor;
 
@@ -42,8 +43,14 @@ typedef struct alpi_read_node {
     float share; // the most confidence that its anchor has there
 } alpi_read_node;
 
+typedef bool alpi_ambience_lookup_fn(const alp_ambience_snapshot *snapshot,
+                                     const double position[3], float light[ALPI_AMBIENCE_FLOATS]);
+alpi_ambience_lookup_fn alpi_ambience_lookup_baseline, alpi_ambience_lookup_v3;
+
 struct alp_ambience_snapshot {
-    double centre[3], unit, time;
+    alpi_ambience_lookup_fn *read;
+    double centre[3], unit, inverse_unit, time;
+    double level_scale[ALPI_GRAPH_LEVELS]; // 3^−level
     int32_t root_index[3];
     bool flat;
     alp_ambience_lookup lookup;

@@ -46,7 +46,8 @@ static void add_geometry(const alpi_sphere_packet *p, const alpi_sphere_hit *hit
     }
 }
 
-static void add_moments(const alpi_sphere_hits_run *run, const alpi_sphere_packet *packets,
+static void add_moments(const alpi_sphere_hits_run *run, float reach,
+                        const alpi_sphere_packet *packets,
                         const alpi_sphere_hit (*hits)[ALPI_PACKET], uint32_t count,
                         alpi_sphere_moments *moments)
 {
@@ -56,7 +57,7 @@ static void add_moments(const alpi_sphere_hits_run *run, const alpi_sphere_packe
             met[k].distance[i] = hits[k][i].distance;
         }
     }
-    alpi_sphere_moments_add(run->loops, packets, met, count, run->how->reach, moments);
+    alpi_sphere_moments_add(run->loops, packets, met, count, reach, moments);
 }
 
 // --- points --------------------------------------------------------------------------------------
@@ -124,7 +125,7 @@ static void gather_rays(const alpi_sphere_hits_work *work, const alpi_sphere_hit
             add_geometry(&packets[k], met[k], sums);
         }
         if (moments) {
-            add_moments(run, packets, met, count, &sums->moments);
+            add_moments(run, at->reach, packets, met, count, &sums->moments);
         }
     }
 }
@@ -173,7 +174,7 @@ static void gather_point(const alpi_sphere_hits_run *run, alpi_sphere_hits_point
         alpi_sphere_lamps_at(&lamps, at->point, at->key, &at->value.light);
     }
     if (moments) {
-        alpi_sphere_moments_finish(&sums.moments, how->reach, at->moments);
+        alpi_sphere_moments_finish(&sums.moments, at->reach, at->moments);
     }
 }
 

@@ -66,7 +66,6 @@ typedef struct alpi_sphere_relight {
     // share one call of `bounce`. Near is a quarter of the field's cell: `bounce_cell_scale` times
     // the distance of the hit, and at least `bounce_cell_least` metres. Both 0: none is shared.
     float bounce_cell_scale, bounce_cell_least;
-    float reach; // metres: larger distances count as this in moments
     uint64_t seed;
 } alpi_sphere_relight;
 
@@ -79,6 +78,7 @@ typedef struct alpi_sphere_hits_point {
     bool traced;           // hits are those of the same point, key and face: only relight
     // NULL, or [ALPI_SPHERE_MOMENTS] out, as of alpi_sphere_job. Not written if `traced`.
     float (*moments)[2];
+    float reach; // metres: larger distances count as this in moments
     bool direct; // light straight from lamps and suns is added, as alpi_sphere_lamps_add does
     // Out. The variance is estimated from the two halves of a chequerboard of rays.
     alpi_sphere_light value;

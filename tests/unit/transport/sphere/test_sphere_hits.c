@@ -22,14 +22,13 @@ static alpi_sphere_relight relight_of(const test_lit *lit)
                                  .scene = lit->scene,
                                  .tracer = lit->tracer,
                                  .lighting = lit->lighting,
-                                 .reach = 4.0f,
                                  .seed = 1};
 }
 
 static alpi_sphere_light light_at(const alpi_sphere_relight *how, vec3 point, uint32_t key,
                                   bool direct)
 {
-    alpi_sphere_hits_point at = {.point = point, .key = key, .face = FACE, .direct = direct};
+    alpi_sphere_hits_point at = {.point = point, .key = key, .face = FACE, .reach = 4.0f, .direct = direct};
     ASSERT_OK(how->context, alpi_sphere_hits_gather(how, &at, 1, NULL));
     return at.value;
 }
@@ -259,6 +258,7 @@ static void gather_all(const alpi_sphere_relight *how, hits_bits *bits, bool kee
                                              .hits = keep ? bits->hits[i] : NULL,
                                              .traced = traced,
                                              .moments = keep ? bits->moments[i] : NULL,
+                                             .reach = 4.0f,
                                              .direct = i % 3 == 0};
     }
     ASSERT_OK(how->context, alpi_sphere_hits_gather(how, points, POINTS, NULL));
