@@ -160,7 +160,7 @@ static void add_lamp(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *la
     }
 }
 
-/// What a lamp gives at a place that faces it, unshadowed.
+/// Unshadowed E of a surface that faces the lamp, summed over the channels.
 static double level_at(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *lamp, vec3 place)
 {
     alpi_light_sample s;
@@ -174,7 +174,7 @@ static double level_at(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *
 }
 
 /// Draws ALPI_HITS_LAMPS of many lamps for a packet, evenly spread over the sum of their shares. A
-/// share is three quarters what the lamp gives at one hit, one quarter the same for all, as other
+/// share is three quarters the E of the lamp at one hit, one quarter the same for all, as other
 /// lanes may be in its range.
 static void draw_lamps(const alpi_sphere_hits_run *run, uint32_t lit, alpi_sphere_met *m)
 {

@@ -140,6 +140,21 @@ TEST(sides)
     }
 }
 
+/// Hits are far away: none is shadowed by its own surface, none is lit through it.
+TEST(far_hits_lie_on_their_side)
+{
+    const alp_lighting_options o = sun_at(0.1f, 0.7f);
+    test_lit lit = test_lit_open(floor_scene(2000.0f, ALBEDO, true), &o);
+    const alpi_sphere_relight how = relight_of(&lit);
+    const double radiance = (double)(ALBEDO * 3.0f * sinf(0.1f)) / ALPI_PI;
+    const double solid_angle = 4.0 * asin(4.0 / 6.25); // of the floor from above
+    alpi_sphere_light v = mean_light(&how, (vec3){0.0f, 1500.0f, 0.0f}, 16);
+    ASSERT_NEAR(v.light.c[0][0], solid_angle * radiance * (double)Y0, 0.005 * radiance);
+    v = mean_light(&how, (vec3){0.0f, -1500.0f, 0.0f}, 16);
+    assert_true(v.light.c[0][0] == 0.0f);
+    test_lit_close(&lit);
+}
+
 /// Radiance 1 from walls that glow, whatever the direction.
 TEST(glowing_room_is_exact)
 {
