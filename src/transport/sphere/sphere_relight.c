@@ -87,12 +87,15 @@ static void add_open(const alpi_sphere_hits_run *run, uint32_t open, alpi_rays *
                      const vec3 *light, alpi_sphere_met *m)
 {
     vec3 left[ALPI_PACKET];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        left[i] = (vec3){1.0f, 1.0f, 1.0f};
+    }
     if (run->filter.panes && open != 0) {
         alpi_panes_dim(run->how->scene, run->how->tracer, run->filter, open, rays, left);
     }
     for (; open != 0; open &= open - 1) {
         const int i = __builtin_ctz(open);
-        const vec3 k = run->filter.panes ? left[i] : (vec3){1.0f, 1.0f, 1.0f};
+        const vec3 k = left[i];
         add_lane(m->irradiance, i, (vec3){light[i].x * k.x, light[i].y * k.y, light[i].z * k.z});
     }
 }
