@@ -115,7 +115,7 @@ static void gather_rays(const alpi_sphere_hits_work *work, const alpi_sphere_hit
                 alpi_sphere_place_of(at->face, at->point, work->key, first + k);
             run->loops->aim(&place, &packets[k]);
         }
-        if (!at->traced) {
+        if (at->hits == NULL || !at->traced) {
             alpi_sphere_hits_trace(work, first, count, packets, hits);
         }
         const alpi_sphere_hit(*met)[ALPI_PACKET] = (const alpi_sphere_hit(*)[ALPI_PACKET])hits;

@@ -8,7 +8,7 @@
 
 enum { BATCH = ALPI_SPHERE_BATCH, USE_PANE = 21 };
 
-/// What panes left of the rays of a packet, and how far the last of them was.
+/// Shares of light that panes on the way of a packet leave.
 typedef struct passed_panes {
     vec3 left[ALPI_PACKET];    // through panes, over the probability of the way
     float before[ALPI_PACKET]; // metres to the last pane

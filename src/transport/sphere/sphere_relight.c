@@ -87,12 +87,15 @@ static void add_open(const alpi_sphere_hits_run *run, uint32_t open, alpi_rays *
                      const vec3 *light, alpi_sphere_met *m)
 {
     vec3 left[ALPI_PACKET];
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        left[i] = (vec3){1.0f, 1.0f, 1.0f};
+    }
     if (run->filter.panes && open != 0) {
         alpi_panes_dim(run->how->scene, run->how->tracer, run->filter, open, rays, left);
     }
     for (; open != 0; open &= open - 1) {
         const int i = __builtin_ctz(open);
-        const vec3 k = run->filter.panes ? left[i] : (vec3){1.0f, 1.0f, 1.0f};
+        const vec3 k = left[i];
         add_lane(m->irradiance, i, (vec3){light[i].x * k.x, light[i].y * k.y, light[i].z * k.z});
     }
 }
@@ -160,7 +163,7 @@ static void add_lamp(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *la
     }
 }
 
-/// What a lamp gives at a place that faces it, unshadowed.
+/// Unshadowed E of a surface that faces the lamp, summed over the channels.
 static double level_at(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *lamp, vec3 place)
 {
     alpi_light_sample s;
@@ -174,7 +177,7 @@ static double level_at(const alpi_sphere_hits_run *run, const alpi_sphere_lamp *
 }
 
 /// Draws ALPI_HITS_LAMPS of many lamps for a packet, evenly spread over the sum of their shares. A
-/// share is three quarters what the lamp gives at one hit, one quarter the same for all, as other
+/// share is three quarters the E of the lamp at one hit, one quarter the same for all, as other
 /// lanes may be in its range.
 static void draw_lamps(const alpi_sphere_hits_run *run, uint32_t lit, alpi_sphere_met *m)
 {

@@ -28,7 +28,7 @@ typedef struct alpi_sphere_lamp {
     float directions[ALPI_DISK_DIRECTIONS][3];
 } alpi_sphere_lamp;
 
-/// What all points share.
+/// Shared by all points.
 typedef struct alpi_sphere_hits_run {
     const alpi_sphere_relight *how;
     alpi_sphere_hits_point *points;
