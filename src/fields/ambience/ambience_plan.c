@@ -17,7 +17,8 @@
 enum { WAY_POINTS = 5 };
 static const double AHEAD = 1.0;   // seconds that are predicted
 static const double INERTIA = 0.3; // seconds that smooth the velocity
-static const double RADIUS = 5.0, FLAT_RADIUS = 6.5; // of a window, cells
+// Cells of a window's radius, wide and narrow: in a volume, and flat.
+static const double RADII[2][2] = {{5.0, 3.0}, {12.0, 6.0}};
 static const float RENEWAL = 0.6f;                   // share of the lifetime from which on
 static const float URGENT = 0.85f;                   // the same, before all that is missing
 static const double LEAST_RATE = 30.0;               // anchors per second that any host samples
@@ -296,7 +297,7 @@ static double window_count(const plan *p, double cell, double length)
                               : ALPI_PI * r * r * (4.0 / 3.0 * r + length / cell);
 }
 
-/// Whether a level can be kept up at the camera's speed.
+/// Whether a level with the plan's radius can be kept up at the camera's speed.
 static bool is_kept_up(const plan *p, uint32_t level)
 {
     const alp_ambience *a = p->a;
@@ -350,7 +351,6 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 {
     plan p = {.a = a,
               .camera = camera,
-              .radius = a->options.flat ? FLAT_RADIUS : RADIUS,
               .mean = alpi_ambience_mean(a->base),
               .result = ALP_OK};
     int32_t index[3];
@@ -362,10 +362,13 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
         ALP_TRY(alpi_graph_require(&a->graph, a->graph.depth, index, &node));
     }
     for (uint32_t level = 0; level <= a->graph.depth; level++) {
-        if (is_kept_up(&p, level)) {
-            scan_window(&p, level, p.way_count);
-        } else if (level + 1 >= a->graph.depth) {
-            scan_window(&p, level, 1);
+        bool kept_up = false;
+        for (int i = 0; i < 2 && !kept_up; i++) {
+            p.radius = RADII[a->options.flat][i];
+            kept_up = is_kept_up(&p, level);
+        }
+        if (kept_up || level + 1 >= a->graph.depth) {
+            scan_window(&p, level, kept_up ? p.way_count : 1);
         }
     }
     make_room(a);
