@@ -70,8 +70,8 @@ static alp_result check_options(alp_context *context, const alp_ambience_options
         return alpi_fail(context, code, "ambience: size %g m, depth %u; need > 0 and 1 to %d",
                          o->size, o->depth, DEPTH_MOST);
     }
-    if (!(o->lifetime > 0.0) || !isfinite(o->lifetime) || !(o->fade >= 0.0) ||
-        !isfinite(o->fade) || !(o->above >= 0.0) || !isfinite(o->above)) {
+    if (!(o->lifetime > 0.0) || !isfinite(o->lifetime) || !(o->fade >= 0.0) || !isfinite(o->fade) ||
+        !(o->above >= 0.0) || !isfinite(o->above)) {
         return alpi_fail(context, code,
                          "ambience: lifetime %g s, fade %g s, %g m above the ground; need a "
                          "lifetime > 0 and others ≥ 0",
@@ -257,4 +257,3 @@ alp_ambience_info alp_ambience_get_info(const alp_ambience *a)
     info.cell = finest < ALPI_GRAPH_LEVELS ? alpi_ambience_cell(a, finest) : 0.0;
     return info;
 }
-

@@ -23,15 +23,15 @@ typedef enum alpi_anchor_state {
 } alpi_anchor_state;
 
 typedef struct alpi_anchor {
-    int32_t index[3]; // of the topmost node of its place when it was made
-    uint8_t level;    // of that node
-    uint8_t state;    // alpi_anchor_state
-    bool pending;     // a request for it is open
-    bool leaving;     // its light has expired and fades out
-    bool stale_light; // lighting changed since
-    bool stale_trace; // geometry changed since
-    bool coarse;      // sampled by few rays
-    float height;     // flat: metres of its place along y
+    int32_t index[3];                  // of the topmost node of its place when it was made
+    uint8_t level;                     // of that node
+    uint8_t state;                     // alpi_anchor_state
+    bool pending;                      // a request for it is open
+    bool leaving;                      // its light has expired and fades out
+    bool stale_light;                  // lighting changed since
+    bool stale_trace;                  // geometry changed since
+    bool coarse;                       // sampled by few rays
+    float height;                      // flat: metres of its place along y
     float light[ALPI_AMBIENCE_FLOATS]; // active coefficients, as readers see them
     float next[ALPI_AMBIENCE_FLOATS];  // what they become
     float fade_left;                   // seconds until then; 0: they are
@@ -83,9 +83,9 @@ struct alp_ambience {
     bool planned;        // since the last update
     double planned_time; // of the last plan; NaN before
     double velocity[3];  // of the camera, smoothed
-    double rate;            // anchors per second that can be sampled, as far as was seen
-    uint32_t taken;         // anchors sampled since the last update
-    uint64_t hit_bytes;     // memory of kept hits
+    double rate;         // anchors per second that can be sampled, as far as was seen
+    uint32_t taken;      // anchors sampled since the last update
+    uint64_t hit_bytes;  // memory of kept hits
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
 };
 

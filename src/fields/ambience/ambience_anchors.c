@@ -94,9 +94,9 @@ static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
     }
     for (int i = 0; i < 6; i++) {
         const float way = i % 2 == 0 ? 1.0f : -1.0f;
-        const vec3 e = alpi_sh9_irradiance(&apart, (vec3){i / 2 == 0 ? way : 0.0f,
-                                                          i / 2 == 1 ? way : 0.0f,
-                                                          i / 2 == 2 ? way : 0.0f});
+        const vec3 e =
+            alpi_sh9_irradiance(&apart, (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f,
+                                               i / 2 == 2 ? way : 0.0f});
         largest = fmaxf(largest, fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z))));
     }
     return largest;
@@ -151,9 +151,8 @@ void alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radianc
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
     float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
     fade = is_first(a) ? 0.0f : fade;
-    at->confidence_rate = fade > 0.0f ? (renewed ? fmaxf(at->confidence_rate, 1.0f / fade)
-                                                 : 1.0f / fade)
-                                      : 0.0f;
+    at->confidence_rate =
+        fade > 0.0f ? (renewed ? fmaxf(at->confidence_rate, 1.0f / fade) : 1.0f / fade) : 0.0f;
     at->fade_left = renewed ? fade : 0.0f;
     if (!(fade > 0.0f)) {
         memcpy(at->light, at->next, sizeof at->light);
@@ -201,8 +200,8 @@ static void fade_light(alp_ambience *a, uint32_t anchor, float step)
     const float share = step >= at->fade_left ? 1.0f : step / at->fade_left;
     at->fade_left = fmaxf(at->fade_left - step, 0.0f);
     for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
-        at->light[i] = share < 1.0f ? at->light[i] + share * (at->next[i] - at->light[i])
-                                    : at->next[i];
+        at->light[i] =
+            share < 1.0f ? at->light[i] + share * (at->next[i] - at->light[i]) : at->next[i];
     }
     for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && a->moments != NULL; i++) {
         for (int k = 0; k < 2; k++) {
@@ -249,8 +248,8 @@ static void step_lit(const alp_ambience *a, alpi_anchor *at)
 {
     if (!at->leaving && a->time - at->born > a->options.lifetime) {
         const float least = fmaxf((float)a->options.fade, 1e-3f);
-        const float fade = fmaxf(least, fminf(loss_without(a, at) / FADE_RATE,
-                                              (float)a->options.lifetime));
+        const float fade =
+            fmaxf(least, fminf(loss_without(a, at) / FADE_RATE, (float)a->options.lifetime));
         at->leaving = true;
         at->confidence_rate = -1.0f / fade;
     }
@@ -273,8 +272,8 @@ void alpi_anchors_step(alp_ambience *a, double step)
             }
             step_lit(a, at);
         }
-        const bool gone = at->state == ALPI_ANCHOR_SOLID ? !(at->solid_time > 0.0f)
-                                                         : !(at->confidence > 0.0f);
+        const bool gone =
+            at->state == ALPI_ANCHOR_SOLID ? !(at->solid_time > 0.0f) : !(at->confidence > 0.0f);
         const bool dark = at->state == ALPI_ANCHOR_EMPTY || (at->leaving && gone);
         if (dark && !at->pending) {
             alpi_anchor_release(a, i);

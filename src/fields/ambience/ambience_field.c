@@ -22,8 +22,8 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
 {
     const ambience_field *f = (const ambience_field *)field;
     for (uint32_t i = 0; i < count; i++) {
-        const double place[1][3] = {{(double)positions[i][0], (double)positions[i][1],
-                                     (double)positions[i][2]}};
+        const double place[1][3] = {
+            {(double)positions[i][0], (double)positions[i][1], (double)positions[i][2]}};
         alp_ambience_irradiance(f->snapshot, 1, place, &normals[i], &out[i]);
     }
 }

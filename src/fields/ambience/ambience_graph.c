@@ -159,8 +159,7 @@ static bool expand(alpi_graph *g, uint32_t parent, alp_result *result)
         child->level = (uint8_t)(p->level - 1);
         child->place = (uint8_t)i;
         for (int k = 0; k < 3; k++) {
-            child->index[k] =
-                g->flat && k == 1 ? 0 : 3 * p->index[k] + child_step(g->flat, i, k);
+            child->index[k] = g->flat && k == 1 ? 0 : 3 * p->index[k] + child_step(g->flat, i, k);
         }
     }
     g->nodes[block + alpi_graph_middle(g->flat)].anchor = p->anchor;
@@ -296,8 +295,7 @@ static bool grow_root(alpi_graph *g, alp_result *result)
     return true;
 }
 
-alp_result alpi_graph_require(alpi_graph *g, uint32_t level, const int32_t index[3],
-                              uint32_t *out)
+alp_result alpi_graph_require(alpi_graph *g, uint32_t level, const int32_t index[3], uint32_t *out)
 {
     alp_result result = ALP_OK;
     *out = ALPI_NO_NODE;
@@ -321,8 +319,7 @@ alp_result alpi_graph_require(alpi_graph *g, uint32_t level, const int32_t index
 
 uint32_t alpi_graph_top(const alpi_graph *g, uint32_t node)
 {
-    while (g->nodes[node].level < g->depth &&
-           g->nodes[node].place == alpi_graph_middle(g->flat)) {
+    while (g->nodes[node].level < g->depth && g->nodes[node].place == alpi_graph_middle(g->flat)) {
         node = g->nodes[node].parent;
     }
     return node;
@@ -388,8 +385,7 @@ static uint32_t only_child(const alpi_graph *g)
     if ((used & (used - 1)) != 0) {
         return ALPI_NO_NODE;
     }
-    return root->child + (used != 0 ? (uint32_t)__builtin_ctz(used)
-                                    : alpi_graph_middle(g->flat));
+    return root->child + (used != 0 ? (uint32_t)__builtin_ctz(used) : alpi_graph_middle(g->flat));
 }
 
 static void shrink_root(alpi_graph *g)

@@ -281,8 +281,7 @@ static inline float add_octants(const point_search *p, uint32_t level,
 // --- all -----------------------------------------------------------------------------------------
 
 bool ALPI_VARIANT(alpi_ambience_lookup)(const alp_ambience_snapshot *snapshot,
-                                        const double position[3],
-                                        float light[ALPI_AMBIENCE_FLOATS])
+                                        const double position[3], float light[ALPI_AMBIENCE_FLOATS])
 {
     point_search p;
     float sums[ALPI_AMBIENCE_FLOATS] = {0.0f}, rest = 1.0f;

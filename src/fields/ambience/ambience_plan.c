@@ -19,11 +19,11 @@ static const double AHEAD = 1.0;   // seconds that are predicted
 static const double INERTIA = 0.3; // seconds that smooth the velocity
 // Cells of a window's radius, wide and narrow: in a volume, and flat.
 static const double RADII[2][2] = {{5.0, 3.0}, {12.0, 6.0}};
-static const float RENEWAL = 0.6f;                   // share of the lifetime from which on
-static const float URGENT = 0.85f;                   // the same, before all that is missing
-static const double LEAST_RATE = 30.0;               // anchors per second that any host samples
-static const double CROWDED = 0.6; // share of the limit from which on others fade out early
-static const float RELIGHT = 0.15f; // share of the lifetime after which stale light is urgent
+static const float RENEWAL = 0.6f;     // share of the lifetime from which on
+static const float URGENT = 0.85f;     // the same, before all that is missing
+static const double LEAST_RATE = 30.0; // anchors per second that any host samples
+static const double CROWDED = 0.6;     // share of the limit from which on others fade out early
+static const float RELIGHT = 0.15f;    // share of the lifetime after which stale light is urgent
 
 /// What the plan of an update needs.
 typedef struct plan {
@@ -349,10 +349,7 @@ static int compare_wishes(const void *a, const void *b)
 
 static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 {
-    plan p = {.a = a,
-              .camera = camera,
-              .mean = alpi_ambience_mean(a->base),
-              .result = ALP_OK};
+    plan p = {.a = a, .camera = camera, .mean = alpi_ambience_mean(a->base), .result = ALP_OK};
     int32_t index[3];
     a->wish_count = 0;
     a->planned = true;

@@ -62,7 +62,7 @@ static alpi_request_slot *take(alp_ambience *a, uint64_t id)
     alpi_request_slot *slot = &a->slots[id & (SLOTS - 1)];
     uint64_t expected = id << STATE_BITS | OPEN;
     return atomic_compare_exchange_strong(&slot->word, &expected, id << STATE_BITS | TAKEN) ? slot
-                                                                                           : NULL;
+                                                                                            : NULL;
 }
 
 static alp_result refuse(const alp_ambience *a, uint64_t id)

@@ -73,8 +73,7 @@ static alp_result check_options(const alp_ambience_sampler_options *o, const alp
 
 static void clear_lighting(alp_ambience_sampler *s)
 {
-    alpi_lighting **all[] = {&s->soft,      &s->spots, &s->unused[0],
-                             &s->unused[1], &s->all,   &s->space};
+    alpi_lighting **all[] = {&s->soft, &s->spots, &s->unused[0], &s->unused[1], &s->all, &s->space};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         alpi_lighting_destroy(s->scene->context, *all[i]);
         *all[i] = NULL;
@@ -285,7 +284,7 @@ static alp_result fill(alp_ambience_sampler *s, const alp_ambience_camera *camer
                        int64_t *quarters, uint32_t *count)
 {
     *count = 0;
-    while (*count < most && *quarters > 0) {
+    while (*count<most && * quarters> 0) {
         uint32_t anchor;
         ALP_TRY(alpi_ambience_choose(s->ambience, camera, &anchor));
         if (anchor == ALPI_NO_ANCHOR) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // One frame of the ambience volume, as readers see it.
 //
-// Light at a point p is read level by level, from the finest to level `depth`. The eight places of the
-// lattice round p have trilinear weights t. An anchor there has confidence f (it fades in and out),
-// openness o (0 in a solid), and visibility v (does it see p?). With w = t o (1 − f + f v):
+// Light at a point p is read level by level, from the finest to level `depth`. The eight places of
+// the lattice round p have trilinear weights t. An anchor there has confidence f (it fades in and
+// out), openness o (0 in a solid), and visibility v (does it see p?). With w = t o (1 − f + f v):
 //
 //     S = Σ w,  F = Σ w f,  N = Σ w f c,  g = min(1, S / .1)
 //     light += rest · g · N / S,   rest ← rest · (1 − g F / S)
 //
 // A node that shares its parent's anchor has at most the largest confidence among its siblings: so
-// it comes and goes with them. A place without an anchor counts with f = 0, o = 1. So coarser levels provide the confidence that
-// is missing, and solids count for nothing. After the last level, the rest is that of the mean of
-// all anchors. All weights are continuous in space and time.
+// it comes and goes with them. A place without an anchor counts with f = 0, o = 1. So coarser
+// levels provide the confidence that is missing, and solids count for nothing. After the last
+// level, the rest is that of the mean of all anchors. All weights are continuous in space and time.
 #ifndef ALPI_FIELDS_AMBIENCE_SNAPSHOT_H
 #define ALPI_FIELDS_AMBIENCE_SNAPSHOT_H
 

@@ -141,9 +141,8 @@ static uint32_t check_below(const alpi_graph *g, const twin *t, uint32_t number)
 {
     uint32_t count = 1;
     check_node(g, t, number);
-    for (uint32_t i = 0; g->nodes[number].child != ALPI_NO_NODE &&
-                         i < alpi_graph_child_count(g->flat);
-         i++) {
+    for (uint32_t i = 0;
+         g->nodes[number].child != ALPI_NO_NODE && i < alpi_graph_child_count(g->flat); i++) {
         const uint32_t child = g->nodes[number].child + i;
         assert_int_equal(g->nodes[child].parent, number);
         assert_int_equal(g->nodes[child].place, i);
@@ -197,9 +196,9 @@ static void fuzz(bool flat, uint64_t seed, int steps)
     }
     while (t.count > 0) {
         t.count--;
-        alpi_graph_set_anchor(
-            &g, alpi_graph_find(&g, t.places[t.count].level, t.places[t.count].index),
-            ALPI_NO_ANCHOR);
+        alpi_graph_set_anchor(&g,
+                              alpi_graph_find(&g, t.places[t.count].level, t.places[t.count].index),
+                              ALPI_NO_ANCHOR);
     }
     alpi_graph_prune(&g);
     assert_int_equal(g.node_count, 1); // the pool is back at its start

@@ -71,9 +71,8 @@ static void twin_read(const alp_ambience *a, const double p[3], float light[ALPI
             int32_t index[3];
             double t = 1.0;
             for (int k = 0; k < 3; k++) {
-                const double x = a->options.flat && k == 1
-                                     ? 0.0
-                                     : (p[k] - a->options.centre[k]) / cell;
+                const double x =
+                    a->options.flat && k == 1 ? 0.0 : (p[k] - a->options.centre[k]) / cell;
                 index[k] = (int32_t)floor(x) + (corner >> k & 1);
                 t *= 1.0 - fabs(x - index[k]);
             }
@@ -233,8 +232,8 @@ static float irradiance_at(const alp_ambience_snapshot *s, const double p[3], in
 {
     const double place[1][3] = {{p[0], p[1], p[2]}};
     const float way = normal % 2 == 0 ? 1.0f : -1.0f;
-    const float n[1][3] = {{normal / 2 == 0 ? way : 0.0f, normal / 2 == 1 ? way : 0.0f,
-                            normal / 2 == 2 ? way : 0.0f}};
+    const float n[1][3] = {
+        {normal / 2 == 0 ? way : 0.0f, normal / 2 == 1 ? way : 0.0f, normal / 2 == 2 ? way : 0.0f}};
     float e[1][3];
     alp_ambience_irradiance(s, 1, place, n, e);
     return e[0][0];
@@ -258,8 +257,8 @@ static void walk_path(const alp_ambience_options *o, uint64_t seed, walk *most)
     ASSERT_OK(context, alp_ambience_update(a, 0.0));
     for (int i = 0; i < POINTS; i++) {
         for (int k = 0; k < 3; k++) {
-            points[i][k] = camera.position[k] + 12.0 * (world_random(&seed) - 0.5) +
-                           0.25 * camera.velocity[k];
+            points[i][k] =
+                camera.position[k] + 12.0 * (world_random(&seed) - 0.5) + 0.25 * camera.velocity[k];
         }
         points[i][1] = fabs(points[i][1]);
     }
@@ -357,6 +356,7 @@ static uint64_t ask_root(alp_ambience *a)
 TEST(new_light_fades_in_evenly)
 {
     alp_ambience_options o = small_options();
+    o.depth = 1;
     o.lifetime = 10.0;
     o.fade = 2.0;
     alp_ambience *a = world_open(context, &o);
@@ -384,6 +384,7 @@ TEST(new_light_fades_in_evenly)
 TEST(a_large_change_fades_for_longer)
 {
     alp_ambience_options o = small_options();
+    o.depth = 1;
     o.lifetime = 20.0;
     o.fade = 1.0;
     alp_ambience *a = world_open(context, &o);

@@ -28,7 +28,8 @@ static alpi_sphere_relight relight_of(const test_lit *lit)
 static alpi_sphere_light light_at(const alpi_sphere_relight *how, vec3 point, uint32_t key,
                                   bool direct)
 {
-    alpi_sphere_hits_point at = {.point = point, .key = key, .face = FACE, .reach = 4.0f, .direct = direct};
+    alpi_sphere_hits_point at = {
+        .point = point, .key = key, .face = FACE, .reach = 4.0f, .direct = direct};
     ASSERT_OK(how->context, alpi_sphere_hits_gather(how, &at, 1, NULL));
     return at.value;
 }
