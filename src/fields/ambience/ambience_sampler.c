@@ -221,7 +221,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
         .key = key_of(at),
         .face = face,
         .traced = kept,
-        .moments = a->moments != NULL ? s->moments[index] : NULL,
+        .moments = a->lights.visibility ? s->moments[index] : NULL,
         .reach = 1.7320508f * (float)alpi_ambience_cell(a, at->level),
         .direct = s->options.direct,
     };
@@ -231,7 +231,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
     return p->traced ? QUARTERS / 2 : first ? 1 : QUARTERS;
 }
 
-static void take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_work *work)
+static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_work *work)
 {
     alp_ambience *a = s->ambience;
     const alpi_sphere_hits_point *p = &s->points[index];
@@ -244,12 +244,12 @@ static void take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_wor
         if (a->anchors[anchor].hits != NULL) {
             drop_hits(a, &a->anchors[anchor]);
         }
-        return;
+        return ALP_OK;
     }
-    const bool moments = a->moments != NULL && !p->traced;
-    alpi_anchor_light(a, anchor, &p->value.light,
-                      moments ? (const float(*)[2])s->moments[index] : NULL);
+    const bool moments = a->lights.visibility && !p->traced;
     a->anchors[anchor].coarse = p->face < s->options.face;
+    return alpi_anchor_light(a, anchor, &p->value.light,
+                             moments ? (const float(*)[2])s->moments[index] : NULL);
 }
 
 static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_work *work)
@@ -268,12 +268,12 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .bounce_cell_least = (float)a->unit,
         .seed = s->options.seed,
     };
-    const alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);
+    alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);
     alp_ambience_end_read(a, now);
     for (uint32_t i = 0; i < count; i++) {
         a->anchors[s->anchors[i]].pending = false;
         if (result == ALP_OK) {
-            take_light(s, i, work);
+            result = take_light(s, i, work);
         }
     }
     return result;
