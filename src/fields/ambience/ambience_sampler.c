@@ -18,7 +18,7 @@ enum { BATCH = 64, QUARTERS = 4 /* cost of a sample */, QUICK_FACE = 4 };
 /// Rays are aimed at emissive surfaces that are less than this share of all surfaces.
 static const double AIMED_AREA = 0.1;
 /// A cell in the window of the camera is about this share of its distance.
-static const float CELL_SCALE = 0.3f;
+static const float CELL_SCALE = 1.0f;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
