@@ -39,6 +39,17 @@ void alpi_ambience_place(const alp_ambience *a, uint32_t level, const int32_t in
     }
 }
 
+void alpi_anchor_place(const alp_ambience *a, const alpi_anchor *at, double place[3])
+{
+    const double cell = alpi_ambience_cell(a, at->level);
+    for (int k = 0; k < 3; k++) {
+        place[k] = a->options.centre[k] + cell * (double)at->index[k];
+    }
+    if (a->options.flat) {
+        place[1] = (double)at->height;
+    }
+}
+
 bool alpi_ambience_index(const alp_ambience *a, uint32_t level, const double place[3],
                          int32_t index[3])
 {
@@ -215,7 +226,7 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
         bool inside = true;
-        alpi_ambience_place(ambience, at->level, at->index, place);
+        alpi_anchor_place(ambience, at, place);
         for (int k = 0; k < 3 && box_min != NULL && box_max != NULL; k++) {
             inside = inside && place[k] >= box_min[k] && place[k] <= box_max[k];
         }

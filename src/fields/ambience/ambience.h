@@ -107,6 +107,8 @@ static inline double alpi_ambience_cell(const alp_ambience *ambience, uint32_t l
 /// Makes the anchor of a node. @param anchor out: NO_ANCHOR at the limit
 alp_result alpi_anchor_create(alp_ambience *ambience, uint32_t node, uint32_t *anchor);
 void alpi_anchor_release(alp_ambience *ambience, uint32_t anchor);
+/// Metres, as alpi_ambience_place; the height of the ground is that when the anchor was made.
+void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, double place[3]);
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,

@@ -133,7 +133,7 @@ static float find_change(const alp_ambience *a, const alpi_anchor *at, const alp
         memcpy(before, a->lights.light[at->slot], sizeof before);
     } else {
         double place[3];
-        alpi_ambience_place(a, at->level, at->index, place);
+        alpi_anchor_place(a, at, place);
         alpi_ambience_read(published(a), place, before);
     }
     return mean > 0.0f ? find_difference(now, before) / mean : 0.0f;

@@ -423,7 +423,7 @@ alp_result alp_ambience_next(alp_ambience *ambience, const alp_ambience_camera *
         at->pending = false;
         return ALP_OK;
     }
-    alpi_ambience_place(ambience, at->level, at->index, request->position);
+    alpi_anchor_place(ambience, at, request->position);
     request->cell = alpi_ambience_cell(ambience, at->level);
     request->renewal = at->state == ALPI_ANCHOR_LIT;
     request->relight = request->renewal && at->stale_light && !at->stale_trace;

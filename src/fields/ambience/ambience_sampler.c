@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "fields/ambience/ambience.h"
+#include "fields/ambience/ambience_ground.h"
 #include "fields/truth.h"
 #include "scene/lights/lighting.h"
 #include "transport/sphere/sphere_hits.h"
@@ -89,6 +90,12 @@ static alp_result make_lighting(alp_ambience_sampler *s)
     return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
 }
 
+static double find_height(void *user, double x, double z)
+{
+    const alp_ambience_sampler *s = user;
+    return alpi_ground_height(s->scene, s->tracer, x, z);
+}
+
 static alp_result start(alp_ambience_sampler *s)
 {
     ALP_TRY(alpi_tracer_for_scene(s->scene, NULL, NULL, &s->tracer, NULL));
@@ -120,6 +127,10 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         return result;
     }
     ambience->drop_hits = drop_hits;
+    if (ambience->options.flat && ambience->options.height == NULL) {
+        ambience->options.height = find_height;
+        ambience->options.height_user = s;
+    }
     *sampler = s;
     return ALP_OK;
 }
@@ -128,6 +139,10 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
 {
     if (s == NULL) {
         return;
+    }
+    if (s->ambience->options.height_user == s) {
+        s->ambience->options.height = NULL;
+        s->ambience->options.height_user = NULL;
     }
     clear_lighting(s);
     alpi_release(s->scene->context, s->moments);
@@ -215,7 +230,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
     const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
     double place[3];
     alpi_sphere_hits_point *p = &s->points[index];
-    alpi_ambience_place(a, at->level, at->index, place);
+    alpi_anchor_place(a, at, place);
     *p = (alpi_sphere_hits_point){
         .point = {(float)place[0], (float)place[1], (float)place[2]},
         .key = key_of(at),
