@@ -29,8 +29,8 @@ static const char *fault_of(const double *n, int count, const char *rest)
     }
     for (int k = 0; k < count; k++) {
         if (!isfinite(n[k]) || fabs(n[k]) > (k == 0 ? 1e9 : 1e15)) {
-            return k == 0 ? "the time is not finite, or beyond 1e9 s"
-                          : "a number is not finite, or beyond 1e15";
+            return k == 0 ? "the time is not finite, or beyond 1e9 s; give seconds"
+                          : "a number is not finite, or beyond 1e15; give metres";
         }
     }
     if (!(distance(n + 1, n + 4) > 0.0)) {
@@ -55,7 +55,7 @@ static flight_point make_point(const double n[COLUMNS], const double origin[3])
 static const char *keep(flight *f, const flight_point *point, uint32_t *room)
 {
     if (f->count > 0 && !(point->time > f->points[f->count - 1].time)) {
-        return "the time is not after that of the line before; times must rise";
+        return "the time is not after that of the line before; give times that rise";
     }
     if (f->count == POINT_LIMIT) {
         return "too many lines, need 1048576 or fewer; leave some out";

@@ -31,6 +31,12 @@ int flight_run_check(const command_line *a)
     if (values[OPTION_DAY].given && !values[OPTION_SUN].given) {
         return usage_error(a->command, "--day: needs a sun at noon; give --sun AZ,EL,LUX");
     }
+    double sun[3];
+    if (values[OPTION_DAY].given && number_parse_list(values[OPTION_SUN].text, sun, 3) != NULL &&
+        !(sun[1] > 0.0)) {
+        return usage_error(a->command, "--day: the sun is below the horizon at noon; give --sun "
+                                       "AZ,EL,LUX with EL above 0");
+    }
     if (a->command != COMMAND_AMBIENCE && values[OPTION_BOUNCES].given) {
         return usage_error(a->command, "--bounces: does not apply to --with ambience");
     }
@@ -159,11 +165,6 @@ int flight_run_open(session *s, const command_line *a, const alp_lighting_option
     if (a->values[OPTION_BUDGET_MS].given) {
         run->budget = BUDGET_LIMIT;
         run->budget_ms = a->values[OPTION_BUDGET_MS].real;
-    }
-    if (run->day > 0.0 && !(lighting->sun.elevation > 0.0f)) {
-        return usage_error(a->command,
-                           "--day: the sun of noon lies below the horizon; give --sun AZ,EL,LUX "
-                           "with EL above 0");
     }
     int code = read_path(a, run);
     code = code == EXIT_DONE ? set_times(a, run) : code;

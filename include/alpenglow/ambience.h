@@ -136,16 +136,16 @@ ALP_API void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot,
                                        const double position[3], alp_sh9 *radiance);
 
 typedef struct alp_ambience_info {
-    uint32_t anchors;  ///< that hold light
-    uint32_t solids;   ///< that lie in solids
-    uint32_t nodes;    ///< of the graph
-    uint32_t levels;   ///< of the graph, the root included
-    uint32_t open;     ///< requests that are not answered
-    uint64_t bytes;    ///< the graph, all anchors and snapshots
+    uint32_t anchors;          ///< that hold light
+    uint32_t solids;           ///< that lie in solids
+    uint32_t nodes;            ///< of the graph
+    uint32_t levels;           ///< of the graph, the root included
+    uint32_t open;             ///< requests that are not answered
+    uint64_t bytes;            ///< the graph, all anchors and snapshots
     uint64_t bytes_visibility; ///< of these: distances
     uint64_t bytes_hits;       ///< of these: kept hits
-    double time;       ///< of the last update
-    double cell;       ///< metres between anchors of the finest level that holds light
+    double time;               ///< of the last update
+    double cell;               ///< metres between anchors of the finest level that holds light
 } alp_ambience_info;
 ALP_API alp_ambience_info alp_ambience_get_info(const alp_ambience *ambience);
 
@@ -169,16 +169,14 @@ ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene);
 ///         OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
-ALP_API ALP_NODISCARD alp_result
-alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *scene,
-                            const alp_ambience_sampler_options *options,
-                            alp_ambience_sampler **sampler);
+ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
+    alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
+    alp_ambience_sampler **sampler);
 /// NULL does nothing. Before the ambience and the scene.
 ALP_API void alp_ambience_sampler_destroy(alp_ambience_sampler *sampler);
 /// Changes the light: a sun moved, or a lamp was switched. Anchors are relit, old ones first.
-ALP_API ALP_NODISCARD alp_result
-alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
-                                  const alp_lighting_options *lighting);
+ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_set_lighting(
+    alp_ambience_sampler *sampler, const alp_lighting_options *lighting);
 
 /// Work of one call.
 typedef struct alp_ambience_work {
