@@ -41,7 +41,7 @@ static double compare(const error_points *p)
 alp_result ambience_error_measure(const ambience_error *e, flight_run *run,
                                   const flight_frame *frame, uint32_t second, double *percent)
 {
-    error_points p;
+    error_points p = {0};
     const alp_scene *scene = run->session->scene;
     const float centre[3] = {(float)frame->camera.position[0], (float)frame->camera.position[1],
                              (float)frame->camera.position[2]};

@@ -60,7 +60,7 @@ static alp_result fly_second(flight_run *run, ambience_second *s, flight_frame *
 {
     double seconds = 0.0;
     *s = (ambience_second){.number = second_of(run, run->frame), .error = (double)NAN};
-    while (run->frame < run->frame_count && second_of(run, run->frame) == s->number) {
+    do {
         const alp_result result = flight_run_next(run, last);
         if (result != ALP_OK) {
             return result;
@@ -72,7 +72,7 @@ static alp_result fly_second(flight_run *run, ambience_second *s, flight_frame *
         s->sampling += last->work.seconds;
         s->worst_ms = fmax(s->worst_ms, 1e3 * last->seconds);
         seconds += last->seconds;
-    }
+    } while (run->frame < run->frame_count && second_of(run, run->frame) == s->number);
     s->update_ms = 1e3 * seconds / (double)s->frames;
     s->time = last->time;
     s->info = alp_ambience_get_info(run->ambience);

@@ -135,7 +135,7 @@ int field_probes(session *s, const command_line *a, const alp_lighting_options *
 int field_ambience(session *s, const command_line *a, const alp_lighting_options *lighting,
                    field_source *source)
 {
-    flight_frame last;
+    flight_frame last = {0};
     source->flight = allocate_or_exit(NULL, sizeof *source->flight);
     const int code = flight_run_open(s, a, lighting, source->flight);
     if (code != EXIT_DONE) {

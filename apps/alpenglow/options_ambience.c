@@ -11,7 +11,7 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--path",
      .value = "FLIGHT.csv",
-     .help = "Flight of the camera, required for ambience: lines of "
+     .help = "Flight of the camera, required for ambience. Lines of "
              "t,px,py,pz,tx,ty,tz[,vfov], time in seconds, position and target in metres, vertical "
              "field of view in degrees (default 60). Times rise. The camera moves straight between "
              "lines, and stands still after the last. The first line may be names. - is standard "
@@ -175,7 +175,8 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--csv",
      .value = "FILE",
-     .help = "Write a line for each second, instead of the table: second, anchors, samples (taken "
+     .help = "Write a line for each second, instead of the table. Columns: second, anchors, "
+             "samples (taken "
              "in that second), bytes, update_ms (mean of a frame), error_percent. - is standard "
              "output."},
     {.id = OPTION_JSON,
