@@ -210,6 +210,7 @@ int ambience_pictures_add(ambience_pictures *p, const flight_frame *frame, uint3
     char *path = frame_path(p, second);
     alp_result result = write_frame(p, frame, path);
     free(path);
+    p->run->session->has_written |= result == ALP_OK;
     if (result == ALP_OK && p->arguments->values[OPTION_PREVIEW].given && is_moment(p, second)) {
         result = render_tile(p, frame);
     }
