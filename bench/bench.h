@@ -22,6 +22,7 @@ bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, 
     bench_denoise, bench_bounced, bench_light, bench_sh, bench_probes, bench_fields, bench_formats;
 bench_fn bench_direct, bench_path_tracer; // further tables of transport
 bench_fn bench_light_bakes;               // of light
+bench_fn bench_kept_hits;                 // of probes
 
 /// Figures of one atlas for scripts; the words after its name. @return exit status
 int bench_measure_atlas(int count, char **words);

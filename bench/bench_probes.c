@@ -375,5 +375,5 @@ int bench_probes(const bench_options *options)
     if (good) {
         bench_table_print(&table, options);
     }
-    return good ? 0 : 1;
+    return good ? bench_kept_hits(options) : 1;
 }

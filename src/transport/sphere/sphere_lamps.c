@@ -79,23 +79,27 @@ static void aim_at(const alpi_sphere_lamps *job, uint32_t light, vec3 point, uin
     }
 }
 
+void alpi_sphere_lamps_at(const alpi_sphere_lamps *job, vec3 point, uint32_t number, alpi_sh9 *sum)
+{
+    const uint32_t lights = alpi_lighting_light_count(job->lighting);
+    const uint32_t key = alpi_random_key(job->rays->seed, number, STREAM_LAMPS);
+    const bool all = job->light == ALPI_NONE;
+    lamp_packet packet = {.count = 0};
+    alpi_rays_clear(&packet.rays);
+    for (uint32_t k = all ? 0 : job->light; k < (all ? lights : job->light + 1); k++) {
+        aim_at(job, k, point, alpi_hash32(key ^ alpi_hash32(k + 1u)), &packet, sum);
+    }
+    flush(job->rays, &packet, sum);
+}
+
 static alp_result light_points(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const alpi_sphere_lamps *job = user;
-    const uint32_t lights = alpi_lighting_light_count(job->lighting);
-    const bool all = job->light == ALPI_NONE;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t index = job->list != NULL ? job->list[i] : i;
         const vec3 point = vec3_load(job->points[index]);
-        const uint32_t key = alpi_random_key(job->rays->seed, index, STREAM_LAMPS);
-        alpi_sh9 *sum = &job->values[index].light;
-        lamp_packet packet = {.count = 0};
-        alpi_rays_clear(&packet.rays);
-        for (uint32_t k = all ? 0 : job->light; k < (all ? lights : job->light + 1); k++) {
-            aim_at(job, k, point, alpi_hash32(key ^ alpi_hash32(k + 1u)), &packet, sum);
-        }
-        flush(job->rays, &packet, sum);
+        alpi_sphere_lamps_at(job, point, index, &job->values[index].light);
         if (!alpi_loop_goes_on(job->rays->context)) {
             return ALP_ERROR_CANCELLED;
         }

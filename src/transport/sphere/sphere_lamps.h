@@ -19,4 +19,8 @@ typedef struct alpi_sphere_lamps {
 /// @return ALP_OK; CANCELLED
 alp_result alpi_sphere_lamps_add(const alpi_sphere_lamps *job, const alpi_task_progress *progress);
 
+/// The same of one point, which need not be one of the job's. @param number key of its random
+/// numbers
+void alpi_sphere_lamps_at(const alpi_sphere_lamps *job, vec3 point, uint32_t number, alpi_sh9 *sum);
+
 #endif

@@ -14,8 +14,7 @@ enum { STREAM_SPHERE = 12, FACES = 6, TALLIES = 3 * ALPI_SH9_COUNT };
 enum { COHERENT_TRIANGLES = 2048 };
 /// From so many pixels along a face on, two blocks are narrow enough to be one bundle.
 enum { PAIRED_FACE = 16 };
-/// Packets and cells of a batch stay in the first cache.
-enum { BATCH = 16 };
+enum { BATCH = ALPI_SPHERE_BATCH };
 _Static_assert((int)BATCH <= (int)ALPI_LIGHT_BATCH, "batches are those of look-ups at most");
 
 /// Sums of one point.
@@ -36,7 +35,8 @@ typedef struct sphere_run {
     const alpi_sphere_job *job;
     const alpi_sphere_loops *loops;
     const alpi_sky *sky; // NULL: black
-    bool cells, emitters, coherent, in_pairs;
+    alpi_sphere_tracing tracing;
+    bool cells, emitters;
 } sphere_run;
 
 /// Lanes that meet a side that is not black.
@@ -126,7 +126,8 @@ static void light_through_panes(const sphere_run *run, uint32_t count, alpi_sphe
     for (uint32_t k = 0; k < count; k++) {
         alpi_rays rays = packets[k].rays; // panes move where they start
         vec3 radiance[ALPI_PACKET];
-        alpi_gather_look(&run->job->rays->from, &rays, 0xffu, run->coherent, radiance, NULL);
+        alpi_gather_look(&run->job->rays->from, &rays, 0xffu, run->tracing.coherent, radiance,
+                         NULL);
         for (int i = 0; i < ALPI_PACKET; i++) {
             packets[k].light[0][i] = radiance[i].x;
             packets[k].light[1][i] = radiance[i].y;
@@ -154,38 +155,32 @@ static void add_geometry(const alpi_sphere_packet *p, const alpi_hits *hits, uin
     }
 }
 
-/// Packet `packet` of a replicate, face after face, row after row.
-static alpi_sphere_place place_of(const alpi_sphere_rays *r, vec3 point, uint32_t key,
-                                  uint32_t packet)
+alpi_sphere_tracing alpi_sphere_tracing_for(const alpi_tracer *tracer, alpi_trace_filter filter,
+                                            uint32_t face_side)
 {
-    const uint32_t across = r->face / 4, each = r->face * r->face / ALPI_PACKET;
-    const uint32_t in_face = packet % each;
-    return (alpi_sphere_place){.point = point,
-                               .key = key,
-                               .face_side = r->face,
-                               .face = packet / each,
-                               .column = 4 * (in_face % across),
-                               .row = 2 * (in_face / across)};
+    return (alpi_sphere_tracing){.tracer = tracer,
+                                 .filter = filter,
+                                 .coherent =
+                                     alpi_tracer_triangle_count(tracer) < COHERENT_TRIANGLES,
+                                 .in_pairs = face_side >= PAIRED_FACE};
 }
 
-static void trace_batch(const sphere_run *run, uint32_t count, const alpi_sphere_packet *packets,
-                        alpi_hits *hits)
+void alpi_sphere_trace(const alpi_sphere_tracing *t, uint32_t count,
+                       const alpi_sphere_packet *packets, alpi_hits *hits)
 {
-    const alpi_tracer *tracer = run->job->rays->from.tracer;
-    const alpi_trace_filter filter = run->job->rays->from.filter;
     const alpi_rays *rays[BATCH];
     uint32_t active[BATCH];
     for (uint32_t k = 0; k < count; k++) {
         rays[k] = &packets[k].rays;
         active[k] = 0xffu;
-        if (!run->coherent) {
-            alpi_trace_nearest(tracer, rays[k], 0xffu, filter, &hits[k]);
-        } else if (!run->in_pairs) {
-            alpi_trace_nearest_coherent(tracer, rays[k], 0xffu, filter, &hits[k]);
+        if (!t->coherent) {
+            alpi_trace_nearest(t->tracer, rays[k], 0xffu, t->filter, &hits[k]);
+        } else if (!t->in_pairs) {
+            alpi_trace_nearest_coherent(t->tracer, rays[k], 0xffu, t->filter, &hits[k]);
         }
     }
-    if (run->coherent && run->in_pairs) {
-        alpi_trace_nearest_coherent_many(tracer, rays, active, count, filter, hits);
+    if (t->coherent && t->in_pairs) {
+        alpi_trace_nearest_coherent_many(t->tracer, rays, active, count, t->filter, hits);
     }
 }
 
@@ -195,7 +190,7 @@ static void gather_batch(const sphere_run *run, uint32_t count, alpi_sphere_pack
     const alpi_sphere_rays *r = run->job->rays;
     alpi_hits hits[BATCH];
     uint32_t met[BATCH], backs[BATCH];
-    trace_batch(run, count, packets, hits);
+    alpi_sphere_trace(&run->tracing, count, packets, hits);
     for (uint32_t k = 0; k < count; k++) {
         met[k] = sort_hits(run, &hits[k], &backs[k]);
     }
@@ -247,7 +242,7 @@ static void gather_replicate(const sphere_run *run, uint32_t point, uint32_t rep
         const uint32_t left = packet_count - first;
         const uint32_t count = left < BATCH ? left : BATCH;
         for (uint32_t k = 0; k < count; k++) {
-            const alpi_sphere_place place = place_of(r, position, key, first + k);
+            const alpi_sphere_place place = alpi_sphere_place_of(r->face, position, key, first + k);
             run->loops->aim(&place, &packets[k]);
         }
         gather_batch(run, count, packets, sums);
@@ -340,8 +335,7 @@ alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progre
         .emitters = from->emitters && from->lighting != NULL &&
                     alpi_lighting_emitter_count(from->lighting) > 0,
         .sky = from->sky && from->lighting != NULL ? alpi_lighting_sky(from->lighting) : NULL,
-        .coherent = alpi_tracer_triangle_count(from->tracer) < COHERENT_TRIANGLES,
-        .in_pairs = r->face >= PAIRED_FACE,
+        .tracing = alpi_sphere_tracing_for(from->tracer, from->filter, r->face),
     };
     alpi_task_progress counted = progress != NULL ? *progress : (alpi_task_progress){0};
     counted.units_per_item = (double)alpi_sphere_rays_count(r);

@@ -86,6 +86,35 @@ typedef struct alpi_sphere_place {
     uint32_t face_side, face, column, row; // n; 0 … 5: +x −x +y −y +z −z
 } alpi_sphere_place;
 
+/// Packet `packet` of a replicate: face after face, row after row.
+static inline alpi_sphere_place alpi_sphere_place_of(uint32_t face_side, vec3 point, uint32_t key,
+                                                     uint32_t packet)
+{
+    const uint32_t across = face_side / 4, each = face_side * face_side / ALPI_PACKET;
+    const uint32_t in_face = packet % each;
+    return (alpi_sphere_place){.point = point,
+                               .key = key,
+                               .face_side = face_side,
+                               .face = packet / each,
+                               .column = 4 * (in_face % across),
+                               .row = 2 * (in_face / across)};
+}
+
+enum { ALPI_SPHERE_BATCH = 16 }; // packets of a batch stay in the first cache
+
+/// How packets of a cube's pixels are traced fastest.
+typedef struct alpi_sphere_tracing {
+    const alpi_tracer *tracer;
+    alpi_trace_filter filter;
+    bool coherent, in_pairs;
+} alpi_sphere_tracing;
+/// @param face_side pixels along a face
+alpi_sphere_tracing alpi_sphere_tracing_for(const alpi_tracer *tracer, alpi_trace_filter filter,
+                                            uint32_t face_side);
+/// Nearest hits of at most ALPI_SPHERE_BATCH packets.
+void alpi_sphere_trace(const alpi_sphere_tracing *tracing, uint32_t count,
+                       const alpi_sphere_packet *packets, alpi_hits *hits);
+
 /// Sums over packets, lane by lane.
 typedef struct alpi_sphere_tallies {
     _Alignas(

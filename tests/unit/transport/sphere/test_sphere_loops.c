@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "transport/sphere/sphere_moments.h"
+#include "transport/sphere/sphere_relight.h"
 
 TEST_CONTEXT(1);
 
@@ -76,6 +77,55 @@ TEST(instruction_sets_give_the_same_bits)
         run(&alpi_sphere_loops_v3, &b);
         assert_memory_equal(&a, &b, sizeof a);
     }
+}
+
+// --- hits ----------------------------------------------------------------------------------------
+
+typedef struct hits_results {
+    alpi_sphere_packet packet;
+    alpi_sphere_met met;
+    alpi_rays rays;
+    float cosines[ALPI_PACKET];
+    uint32_t facing;
+} hits_results;
+
+/// Hits in triangles that are drawn about the rays' ends.
+static void run_hits(const alpi_sphere_hits_loops *loops, uint32_t number, hits_results *r)
+{
+    static alpi_sphere_lamp lamp = {.mask = 3,
+                                    .directions = {{0.0f, 1.0f, 0.0f}, {1.0f, 0.0f, 0.0f}}};
+    const alpi_sphere_place place = {
+        .point = {0.1f, -2.0f, 30.0f}, .key = number, .face_side = 8, .face = number % 6};
+    memset(r, 0, sizeof *r);
+    alpi_sphere_loops_baseline.aim(&place, &r->packet);
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        for (uint32_t k = 0; k < 9; k++) {
+            r->met.corners[k / 3][k % 3][i] =
+                10.0f * alpi_unit_float(alpi_hash32(9 * (number * ALPI_PACKET + i) + k)) - 5.0f;
+        }
+        r->met.distance[i] = (float)(i + number);
+        r->met.albedo[0][i] = r->met.albedo[1][i] = r->met.albedo[2][i] = (float)(20 * i);
+    }
+    r->met.key = number;
+    loops->place(&r->packet, &r->met);
+    r->facing = loops->aim(&r->met, &lamp, &r->rays, r->cosines);
+    r->rays.maximum[3] = -INFINITY; // blocked
+    loops->add(&r->rays, r->facing, r->cosines, (vec3){1.0f, 2.0f, 3.0f}, &r->met);
+    loops->reflect(&r->met, &r->packet);
+}
+
+TEST(instruction_sets_place_hits_alike)
+{
+    static hits_results a, b;
+    uint32_t facing = 0;
+    for (uint32_t number = 0; number < 64 && alpi_context_has_v3(context); number++) {
+        run_hits(&alpi_sphere_hits_loops_baseline, number, &a);
+        run_hits(&alpi_sphere_hits_loops_v3, number, &b);
+        assert_memory_equal(&a, &b, sizeof a);
+        facing |= a.facing;
+        assert_true(a.packet.light[1][3] == 0.0f);
+    }
+    assert_true(facing == 0xffu || !alpi_context_has_v3(context));
 }
 
 /// Each ray's weight, distance up to the reach and its square lie in some texel and bin.

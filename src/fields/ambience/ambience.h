@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The live ambience volume: what its files share.
+//
+// The graph (ambience_graph.h) says where anchors are, the anchors (ambience_anchors.c) hold light
+// and fade it, requests (ambience_requests.c) bring it, the plan (ambience_plan.c) says where to
+// sample next. Readers see none of these: each update copies them to a snapshot
+// (ambience_snapshot.h).
+#ifndef ALPI_FIELDS_AMBIENCE_H
+#define ALPI_FIELDS_AMBIENCE_H
+
+#include "fields/ambience/ambience_graph.h"
+#include "fields/ambience/ambience_snapshot.h"
+#include "sh/sh9.h"
+
+#include <alpenglow/ambience.h>
+
+/// How far an anchor is.
+typedef enum alpi_anchor_state {
+    ALPI_ANCHOR_FREE = 0, // in the list of free ones
+    ALPI_ANCHOR_EMPTY,    // waits for its first light
+    ALPI_ANCHOR_LIT,
+    ALPI_ANCHOR_SOLID
+} alpi_anchor_state;
+
+typedef struct alpi_anchor {
+    int32_t index[3];                  // of the topmost node of its place when it was made
+    uint8_t level;                     // of that node
+    uint8_t state;                     // alpi_anchor_state
+    bool pending;                      // a request for it is open
+    bool leaving;                      // its light has expired and fades out
+    bool stale_light;                  // lighting changed since
+    bool stale_trace;                  // geometry changed since
+    bool coarse;                       // sampled by few rays
+    float height;                      // flat: metres of its place along y
+    float light[ALPI_AMBIENCE_FLOATS]; // active coefficients, as readers see them
+    float next[ALPI_AMBIENCE_FLOATS];  // what they become
+    float fade_left;                   // seconds until then; 0: they are
+    float confidence;                  // [0, 1]
+    float confidence_rate;             // 1/s, below 0 while leaving
+    float open;                        // 1: no solid, as far as is known; 0: solid
+    float solid_time;                  // seconds since it was found to be a solid
+    float change;                      // relative change of E at its last renewal
+    double born;                       // when its newest light was sampled
+    double wanted;                     // when a window last held it
+    uint32_t version;                  // grows whenever what readers see changes
+    uint32_t next_free;
+    void *hits;         // the sampler's
+    uint32_t hits_face; // rays of them along an edge
+} alpi_anchor;
+
+typedef struct alpi_request_slot alpi_request_slot;
+
+/// A place that is wanted, with the urgency to sample it.
+typedef struct alpi_wish {
+    float urgency;
+    uint32_t level;
+    int32_t index[3];
+} alpi_wish;
+
+struct alp_ambience {
+    alp_context *context;
+    alp_ambience_options options;
+    double unit; // metres: the cell of level 0
+    alpi_graph graph;
+
+    alpi_anchor *anchors;
+    float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // of each; NULL without visibility
+    float (*next_moments)[ALPI_AMBIENCE_MOMENTS][2];
+    size_t anchor_capacity;
+    uint32_t anchor_end, free_anchor, anchor_count;
+
+    alpi_request_slot *slots;
+    uint32_t slot_serial;
+    bool requests_open;
+
+    double time, first_time; // NaN before the first update
+    float base[ALPI_AMBIENCE_FLOATS];
+    alpi_snapshots snapshots;
+
+    alpi_wish *wishes; // sorted, most urgent last
+    size_t wish_capacity;
+    uint32_t wish_count;
+    bool planned;        // since the last update
+    double planned_time; // of the last plan; NaN before
+    double velocity[3];  // of the camera, smoothed
+    double rate;         // anchors per second that can be sampled, as far as was seen
+    uint32_t taken;      // anchors sampled since the last update
+    uint64_t hit_bytes;  // memory of kept hits
+    void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
+};
+
+// --- places --------------------------------------------------------------------------------------
+
+/// Place of a node in metres; y of a flat volume from the ground.
+void alpi_ambience_place(const alp_ambience *ambience, uint32_t level, const int32_t index[3],
+                         double place[3]);
+/// Index of the node that holds a place. @return false: beyond the lattice, or not finite
+bool alpi_ambience_index(const alp_ambience *ambience, uint32_t level, const double place[3],
+                         int32_t index[3]);
+static inline double alpi_ambience_cell(const alp_ambience *ambience, uint32_t level)
+{
+    return ambience->unit * (double)alpi_graph_width(level);
+}
+
+// --- anchors -------------------------------------------------------------------------------------
+
+/// Makes the anchor of a node. @param anchor out: NO_ANCHOR at the limit
+alp_result alpi_anchor_create(alp_ambience *ambience, uint32_t node, uint32_t *anchor);
+void alpi_anchor_release(alp_ambience *ambience, uint32_t anchor);
+/// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
+void alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
+                       const float (*moments)[2]);
+void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor);
+/// Fades, expires and releases all by a step of time.
+void alpi_anchors_step(alp_ambience *ambience, double step);
+/// Mean irradiance over all directions, mean of the channels.
+float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
+
+// --- requests ------------------------------------------------------------------------------------
+
+alp_result alpi_requests_create(alp_ambience *ambience);
+/// Opens a request for an anchor. @return its number; 0: too many are open
+uint64_t alpi_request_open(alp_ambience *ambience, uint32_t anchor);
+/// Gives answers to their anchors, and drops requests that are too old.
+void alpi_requests_collect(alp_ambience *ambience);
+uint32_t alpi_requests_count(const alp_ambience *ambience);
+
+// --- planning ------------------------------------------------------------------------------------
+
+/// The most urgent anchor, marked as pending. @param anchor out: NO_ANCHOR: nothing is wanted
+/// @return as alp_ambience_next
+alp_result alpi_ambience_choose(alp_ambience *ambience, const alp_ambience_camera *camera,
+                                uint32_t *anchor);
+
+#endif

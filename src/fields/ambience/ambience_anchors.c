@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "base/memory.h"
+#include "fields/ambience/ambience.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
+/// half a per cent a frame; a renewal and a new finer anchor at the same place together make one.
+static const float FADE_RATE = 0.3f;
+/// Weight of a solid, as a share of its places, from which its fade is even: see solid_openness.
+static const float SOLID_SHARE = 0.2f;
+/// Geometry changes seldom: solids are valid for so many lifetimes.
+static const double SOLID_LIFETIMES = 4.0;
+
+// --- pool ----------------------------------------------------------------------------------------
+
+alp_result alpi_anchor_create(alp_ambience *a, uint32_t node, uint32_t *anchor)
+{
+    *anchor = ALPI_NO_ANCHOR;
+    if (a->anchor_count >= a->options.anchor_limit) {
+        return ALP_OK;
+    }
+    uint32_t made = a->free_anchor;
+    if (made == ALPI_NO_ANCHOR) {
+        const size_t needed = (size_t)a->anchor_end + 1;
+        if (needed > a->anchor_capacity) {
+            size_t grown = a->anchor_capacity;
+            if (a->options.visibility) {
+                size_t each[2] = {grown, grown};
+                ALP_TRY(alpi_grow(a->context, (void **)&a->moments, &each[0], needed,
+                                  sizeof *a->moments));
+                ALP_TRY(alpi_grow(a->context, (void **)&a->next_moments, &each[1], needed,
+                                  sizeof *a->next_moments));
+            }
+            ALP_TRY(alpi_grow(a->context, (void **)&a->anchors, &a->anchor_capacity, needed,
+                              sizeof *a->anchors));
+        }
+        made = a->anchor_end++;
+    } else {
+        a->free_anchor = a->anchors[made].next_free;
+    }
+    const alpi_graph_node *top = &a->graph.nodes[alpi_graph_top(&a->graph, node)];
+    alpi_anchor *new = &a->anchors[made];
+    const uint32_t version = new->version;
+    memset(new, 0, sizeof *new);
+    new->version = version + 1;
+    memcpy(new->index, top->index, sizeof new->index);
+    new->level = top->level;
+    new->state = ALPI_ANCHOR_EMPTY;
+    new->open = 1.0f;
+    new->wanted = a->time;
+    double place[3];
+    alpi_ambience_place(a, top->level, top->index, place);
+    new->height = (float)place[1];
+    a->anchor_count++;
+    alpi_graph_set_anchor(&a->graph, node, made);
+    *anchor = made;
+    return ALP_OK;
+}
+
+void alpi_anchor_release(alp_ambience *a, uint32_t anchor)
+{
+    alpi_anchor *old = &a->anchors[anchor];
+    const uint32_t node = alpi_graph_find(&a->graph, old->level, old->index);
+    if (node != ALPI_NO_NODE) {
+        alpi_graph_set_anchor(&a->graph, node, ALPI_NO_ANCHOR);
+    }
+    if (a->drop_hits != NULL && old->hits != NULL) {
+        a->drop_hits(a, old);
+    }
+    old->state = ALPI_ANCHOR_FREE;
+    old->next_free = a->free_anchor;
+    a->free_anchor = anchor;
+    a->anchor_count--;
+}
+
+// --- new light -----------------------------------------------------------------------------------
+
+float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS])
+{
+    return (float)(ALP_SH_A0 * ALP_SH_Y0) * (light[0] + light[1] + light[2]) / 3.0f;
+}
+
+/// Largest difference of E over six normals and the channels.
+static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
+                             const float b[ALPI_AMBIENCE_FLOATS])
+{
+    alpi_sh9 apart;
+    float largest = 0.0f;
+    for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
+        apart.c[i / 3][i % 3] = a[i] - b[i];
+    }
+    for (int i = 0; i < 6; i++) {
+        const float way = i % 2 == 0 ? 1.0f : -1.0f;
+        const vec3 e =
+            alpi_sh9_irradiance(&apart, (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f,
+                                               i / 2 == 2 ? way : 0.0f});
+        largest = fmaxf(largest, fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z))));
+    }
+    return largest;
+}
+
+static const alp_ambience_snapshot *published(const alp_ambience *a)
+{
+    return a->snapshots.all[atomic_load(&a->snapshots.current)];
+}
+
+/// Before time moves, all light counts at once.
+static bool is_first(const alp_ambience *a)
+{
+    return !(a->time > a->first_time);
+}
+
+/// Distances, which fade as light does. Without any, a renewed anchor keeps its own, and a new one
+/// sees everything.
+static void take_moments(alp_ambience *a, uint32_t anchor, const float (*moments)[2], bool renewed,
+                         bool at_once)
+{
+    static const float far[2] = {1e9f, 1e18f};
+    if (a->moments == NULL) {
+        return;
+    }
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && (moments != NULL || !renewed); i++) {
+        memcpy(a->next_moments[anchor][i], moments != NULL ? moments[i] : far, sizeof far);
+    }
+    if (!renewed || at_once) {
+        memcpy(a->moments[anchor], a->next_moments[anchor], sizeof *a->moments);
+    }
+}
+
+void alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
+                       const float (*moments)[2])
+{
+    alpi_anchor *at = &a->anchors[anchor];
+    const bool renewed = at->state == ALPI_ANCHOR_LIT;
+    const float mean = alpi_ambience_mean(a->base);
+    float before[ALPI_AMBIENCE_FLOATS];
+    memcpy(at->next, radiance->c, sizeof at->next);
+    if (renewed) {
+        memcpy(before, at->light, sizeof before);
+    } else {
+        double place[3];
+        alpi_ambience_place(a, at->level, at->index, place);
+        alpi_ambience_read(published(a), place, before);
+        memcpy(at->light, at->next, sizeof at->light);
+        at->state = ALPI_ANCHOR_LIT;
+    }
+    at->change = mean > 0.0f ? find_difference(at->next, before) / mean : 0.0f;
+    const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
+    float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
+    fade = is_first(a) ? 0.0f : fade;
+    at->confidence_rate =
+        fade > 0.0f ? (renewed ? fmaxf(at->confidence_rate, 1.0f / fade) : 1.0f / fade) : 0.0f;
+    at->fade_left = renewed ? fade : 0.0f;
+    if (!(fade > 0.0f)) {
+        memcpy(at->light, at->next, sizeof at->light);
+        at->confidence = 1.0f;
+    }
+    take_moments(a, anchor, moments, renewed, !(fade > 0.0f));
+    at->leaving = at->pending = at->stale_light = at->stale_trace = false;
+    at->born = a->time;
+    at->open = 1.0f;
+    at->version++;
+    a->taken++;
+}
+
+void alpi_anchor_solid(alp_ambience *a, uint32_t anchor)
+{
+    alpi_anchor *at = &a->anchors[anchor];
+    at->pending = at->stale_light = at->stale_trace = false;
+    at->born = a->time;
+    a->taken++;
+    if (at->state != ALPI_ANCHOR_SOLID) {
+        at->state = ALPI_ANCHOR_SOLID;
+        at->solid_time = 0.0f;
+        at->leaving = false;
+        at->confidence_rate = at->confidence > 0.0f ? -1.0f : 0.0f;
+        if (is_first(a)) {
+            at->open = at->confidence = 0.0f;
+            at->solid_time = FLT_MAX;
+        }
+        at->version++;
+    }
+}
+
+// --- time ----------------------------------------------------------------------------------------
+
+/// Openness of a solid at a share u of its fade. Where it has the weight 1 − s of its places, the
+/// others' share then grows evenly: s / (s + (1 − s) o) = s + (1 − s) u.
+static float solid_openness(float u)
+{
+    return u >= 1.0f ? 0.0f : SOLID_SHARE * (1.0f - u) / (SOLID_SHARE + (1.0f - SOLID_SHARE) * u);
+}
+
+static void fade_light(alp_ambience *a, uint32_t anchor, float step)
+{
+    alpi_anchor *at = &a->anchors[anchor];
+    const float share = step >= at->fade_left ? 1.0f : step / at->fade_left;
+    at->fade_left = fmaxf(at->fade_left - step, 0.0f);
+    for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
+        at->light[i] =
+            share < 1.0f ? at->light[i] + share * (at->next[i] - at->light[i]) : at->next[i];
+    }
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && a->moments != NULL; i++) {
+        for (int k = 0; k < 2; k++) {
+            float *m = &a->moments[anchor][i][k];
+            const float next = a->next_moments[anchor][i][k];
+            *m = share < 1.0f ? *m + share * (next - *m) : next;
+        }
+    }
+    at->version++;
+}
+
+static void fade_confidence(alpi_anchor *at, float step)
+{
+    const float limit = at->confidence_rate < 0.0f ? 0.0f : 1.0f;
+    if (at->confidence_rate != 0.0f && at->confidence != limit) {
+        const float moved = at->confidence + at->confidence_rate * step;
+        at->confidence = limit > 0.0f ? fminf(moved, 1.0f) : fmaxf(moved, 0.0f);
+        at->version++;
+    }
+}
+
+/// How far light at an anchor is from that without it, over the mean.
+static float loss_without(const alp_ambience *a, const alpi_anchor *at)
+{
+    const float mean = alpi_ambience_mean(a->base);
+    return mean > 0.0f ? find_difference(at->light, a->base) / mean : 0.0f;
+}
+
+/// Closes a solid, or opens it again when it has not been renewed for long.
+static void step_solid(const alp_ambience *a, alpi_anchor *at, float step)
+{
+    const float fade = fmaxf((float)a->options.fade, 1.0f) * 2.0f;
+    at->leaving = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
+    const float moved = at->solid_time + (at->leaving ? -step : step);
+    const float now = fminf(fmaxf(moved, 0.0f), fade);
+    if (now != at->solid_time) {
+        at->solid_time = now;
+        at->open = solid_openness(now / fade);
+        at->version++;
+    }
+}
+
+static void step_lit(const alp_ambience *a, alpi_anchor *at)
+{
+    if (!at->leaving && a->time - at->born > a->options.lifetime) {
+        const float least = fmaxf((float)a->options.fade, 1e-3f);
+        const float fade =
+            fmaxf(least, fminf(loss_without(a, at) / FADE_RATE, (float)a->options.lifetime));
+        at->leaving = true;
+        at->confidence_rate = -1.0f / fade;
+    }
+}
+
+void alpi_anchors_step(alp_ambience *a, double step)
+{
+    const float dt = (float)step;
+    for (uint32_t i = 0; i < a->anchor_end; i++) {
+        alpi_anchor *at = &a->anchors[i];
+        if (at->state == ALPI_ANCHOR_FREE) {
+            continue;
+        }
+        fade_confidence(at, dt);
+        if (at->state == ALPI_ANCHOR_SOLID) {
+            step_solid(a, at, dt);
+        } else if (at->state == ALPI_ANCHOR_LIT) {
+            if (at->fade_left > 0.0f) {
+                fade_light(a, i, dt);
+            }
+            step_lit(a, at);
+        }
+        const bool gone =
+            at->state == ALPI_ANCHOR_SOLID ? !(at->solid_time > 0.0f) : !(at->confidence > 0.0f);
+        const bool dark = at->state == ALPI_ANCHOR_EMPTY || (at->leaving && gone);
+        if (dark && !at->pending) {
+            alpi_anchor_release(a, i);
+        }
+    }
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Requests and their answers, which may come from any thread. A slot goes from FREE to OPEN by the
+// thread of the ambience, from OPEN to TAKEN and ANSWERED by the first that answers, and back to
+// FREE at the next update.
+#include "base/memory.h"
+#include "fields/ambience/ambience.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+enum { SLOTS = 1024, SLOT_BITS = 10, SAMPLES_MOST = 1 << 12 };
+
+/// Low bits of a slot's word: where it is; the others: its serial, which a request's id holds too.
+enum { FREE = 0, OPEN, TAKEN, ANSWERED, STATE_BITS = 2 };
+
+struct alpi_request_slot {
+    _Atomic(uint64_t) word; // serial << STATE_BITS | state
+    uint32_t anchor;
+    double opened;
+    bool solid;
+    alpi_sh9 radiance;
+};
+
+alp_result alpi_requests_create(alp_ambience *a)
+{
+    a->slots = ALPI_NEW(a->context, alpi_request_slot, SLOTS);
+    return a->slots != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+}
+
+uint32_t alpi_requests_count(const alp_ambience *a)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < SLOTS; i++) {
+        count += (atomic_load(&a->slots[i].word) & 3u) != FREE;
+    }
+    return count;
+}
+
+uint64_t alpi_request_open(alp_ambience *a, uint32_t anchor)
+{
+    for (uint32_t k = 0; k < SLOTS; k++) {
+        const uint32_t i = (a->slot_serial + k) % SLOTS;
+        alpi_request_slot *slot = &a->slots[i];
+        if ((atomic_load(&slot->word) & 3u) != FREE) {
+            continue;
+        }
+        const uint64_t serial = (uint64_t)++a->slot_serial << SLOT_BITS | i;
+        slot->anchor = anchor;
+        slot->opened = a->time;
+        slot->solid = false;
+        atomic_store(&slot->word, serial << STATE_BITS | OPEN);
+        a->requests_open = true;
+        return serial;
+    }
+    return 0;
+}
+
+/// Opens a slot for writing by whoever answers first.
+static alpi_request_slot *take(alp_ambience *a, uint64_t id)
+{
+    alpi_request_slot *slot = &a->slots[id & (SLOTS - 1)];
+    uint64_t expected = id << STATE_BITS | OPEN;
+    return atomic_compare_exchange_strong(&slot->word, &expected, id << STATE_BITS | TAKEN) ? slot
+                                                                                            : NULL;
+}
+
+static alp_result refuse(const alp_ambience *a, uint64_t id)
+{
+    return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
+                     "ambience: request %llu is not open: it was answered, or waited for longer "
+                     "than a lifetime; drop the answer",
+                     (unsigned long long)id);
+}
+
+alp_result alp_ambience_submit(alp_ambience *ambience, uint64_t id, const alp_sh9 *radiance)
+{
+    if (ambience == NULL || radiance == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
+        if (!isfinite(radiance->c[i / 3][i % 3])) {
+            return alpi_fail(ambience->context, ALP_ERROR_INVALID_ARGUMENT,
+                             "ambience: coefficient %d of request %llu is not finite; the request "
+                             "stays open",
+                             i / 3, (unsigned long long)id);
+        }
+    }
+    alpi_request_slot *slot = take(ambience, id);
+    if (slot == NULL) {
+        return refuse(ambience, id);
+    }
+    slot->radiance = *radiance;
+    atomic_store(&slot->word, id << STATE_BITS | ANSWERED);
+    return ALP_OK;
+}
+
+alp_result alp_ambience_submit_solid(alp_ambience *ambience, uint64_t id)
+{
+    if (ambience == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alpi_request_slot *slot = take(ambience, id);
+    if (slot == NULL) {
+        return refuse(ambience, id);
+    }
+    slot->solid = true;
+    atomic_store(&slot->word, id << STATE_BITS | ANSWERED);
+    return ALP_OK;
+}
+
+alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id, uint32_t side,
+                                     const float *const faces[6])
+{
+    if (ambience == NULL || faces == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    if (side < 1 || side > SAMPLES_MOST) {
+        return alpi_fail(ambience->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: faces of %u pixels, need 1 to %d", side, SAMPLES_MOST);
+    }
+    for (int i = 0; i < 6; i++) {
+        if (faces[i] == NULL) {
+            return alpi_fail(ambience->context, ALP_ERROR_INVALID_ARGUMENT,
+                             "ambience: face %d of request %llu is missing", i,
+                             (unsigned long long)id);
+        }
+    }
+    alp_sh_projection *projection = NULL;
+    alp_sh9 radiance;
+    ALP_TRY(alp_sh_projection_create(ambience->context, side, &projection));
+    const alp_result result = alp_sh_project_cube(projection, faces, &radiance);
+    alp_sh_projection_destroy(projection);
+    return result == ALP_OK ? alp_ambience_submit(ambience, id, &radiance) : result;
+}
+
+/// Frees a slot that waits too long, unless it is being answered right now.
+static void drop_void(alp_ambience *a, alpi_request_slot *slot, uint64_t word)
+{
+    if (a->time - slot->opened > a->options.lifetime &&
+        atomic_compare_exchange_strong(&slot->word, &word, (word & ~(uint64_t)3u) | FREE)) {
+        a->anchors[slot->anchor].pending = false;
+    }
+}
+
+void alpi_requests_collect(alp_ambience *a)
+{
+    if (!a->requests_open) {
+        return;
+    }
+    a->requests_open = false;
+    for (uint32_t i = 0; i < SLOTS; i++) {
+        alpi_request_slot *slot = &a->slots[i];
+        const uint64_t word = atomic_load(&slot->word);
+        if ((word & 3u) == ANSWERED) {
+            if (slot->solid) {
+                alpi_anchor_solid(a, slot->anchor);
+            } else {
+                alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
+            }
+            atomic_store(&slot->word, (word & ~(uint64_t)3u) | FREE);
+        } else if ((word & 3u) == OPEN) {
+            drop_void(a, slot, word);
+        }
+        a->requests_open |= (atomic_load(&slot->word) & 3u) != FREE;
+    }
+}

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+// Anchors sampled by rays through a scene. Light that falls on the surfaces which rays meet is
+// direct light of lamps and suns, traced, and all other light from the snapshot of the last update.
+// So light bounces once more with each renewal.
+#include "base/hash.h"
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/tasks.h"
+#include "fields/ambience/ambience.h"
+#include "fields/truth.h"
+#include "scene/lights/lighting.h"
+#include "transport/sphere/sphere_hits.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BATCH = 64, QUARTERS = 4 /* cost of a sample */, QUICK_FACE = 4 };
+/// Rays are aimed at emissive surfaces that are less than this share of all surfaces.
+static const double AIMED_AREA = 0.1;
+/// A cell in the window of the camera is about this share of its distance.
+static const float CELL_SCALE = 0.3f;
+
+struct alp_ambience_sampler {
+    alp_ambience *ambience;
+    const alp_scene *scene;
+    alp_ambience_sampler_options options;
+    alpi_tracer *tracer;
+    alpi_lighting *all;   // whose lamps and suns count
+    alpi_lighting *soft;  // the same with the sky that rays meet
+    alpi_lighting *spots; // sources that rays are aimed at
+    alpi_lighting *unused[2];
+    alpi_lighting *space; // all without lamps
+    alpi_sphere_hits_point points[BATCH];
+    uint32_t anchors[BATCH];
+    float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // [BATCH]
+};
+
+alp_ambience_sampler_options alp_ambience_sampler_options_default(void)
+{
+    return (alp_ambience_sampler_options){.struct_size = sizeof(alp_ambience_sampler_options),
+                                          .lighting = alp_lighting_options_default(),
+                                          .face = 16,
+                                          .first_face = 8,
+                                          .bounces = true,
+                                          .keep_hits = true};
+}
+
+// --- life ----------------------------------------------------------------------------------------
+
+static void drop_hits(alp_ambience *ambience, alpi_anchor *anchor)
+{
+    ambience->hit_bytes -= alpi_sphere_hits_count(anchor->hits_face) * sizeof(alpi_sphere_hit);
+    alpi_release(ambience->context, anchor->hits);
+    anchor->hits = NULL;
+}
+
+static alp_result check_options(const alp_ambience_sampler_options *o, const alp_scene *scene)
+{
+    const uint32_t faces[2] = {o->face, o->first_face};
+    if (o->struct_size != sizeof *o) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience sampler options are not from _default()");
+    }
+    for (int i = 0; i < 2; i++) {
+        if (faces[i] < QUICK_FACE || faces[i] > ALPI_HITS_FACE_MOST || faces[i] % 4 != 0) {
+            return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                             "ambience: %u rays along a face, need a multiple of 4 from 4 to %d",
+                             faces[i], ALPI_HITS_FACE_MOST);
+        }
+    }
+    return alpi_lighting_refuse_darkness(scene, &o->lighting);
+}
+
+static void clear_lighting(alp_ambience_sampler *s)
+{
+    alpi_lighting **all[] = {&s->soft, &s->spots, &s->unused[0], &s->unused[1], &s->all, &s->space};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        alpi_lighting_destroy(s->scene->context, *all[i]);
+        *all[i] = NULL;
+    }
+}
+
+static alp_result make_lighting(alp_ambience_sampler *s)
+{
+    const alp_lighting_options *o = &s->options.lighting;
+    ALP_TRY(alpi_lighting_create_quietly(s->scene, o, &s->all));
+    ALP_TRY(alpi_lighting_create_without_lamps(s->scene, o, &s->space));
+    ALP_TRY(alpi_lighting_split_sky(s->all, o, &s->soft, &s->unused[0]));
+    return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
+}
+
+static alp_result start(alp_ambience_sampler *s)
+{
+    ALP_TRY(alpi_tracer_for_scene(s->scene, NULL, NULL, &s->tracer, NULL));
+    s->moments = alpi_allocate(s->scene->context, BATCH, sizeof *s->moments);
+    return s->moments == NULL ? ALP_ERROR_OUT_OF_MEMORY : make_lighting(s);
+}
+
+alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *scene,
+                                       const alp_ambience_sampler_options *options,
+                                       alp_ambience_sampler **sampler)
+{
+    if (ambience == NULL || scene == NULL || sampler == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    *sampler = NULL;
+    const alp_ambience_sampler_options o =
+        options ? *options : alp_ambience_sampler_options_default();
+    ALP_TRY(check_options(&o, scene));
+    alp_ambience_sampler *s = ALPI_NEW(scene->context, alp_ambience_sampler, 1);
+    if (s == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    s->ambience = ambience;
+    s->scene = scene;
+    s->options = o;
+    const alp_result result = start(s);
+    if (result != ALP_OK) {
+        alp_ambience_sampler_destroy(s);
+        return result;
+    }
+    ambience->drop_hits = drop_hits;
+    *sampler = s;
+    return ALP_OK;
+}
+
+void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
+{
+    if (s == NULL) {
+        return;
+    }
+    clear_lighting(s);
+    alpi_release(s->scene->context, s->moments);
+    alpi_release(s->scene->context, s);
+}
+
+alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
+                                             const alp_lighting_options *lighting)
+{
+    if (sampler == NULL || lighting == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alp_ambience_sampler fresh = *sampler;
+    fresh.options.lighting = *lighting;
+    fresh.all = fresh.soft = fresh.spots = fresh.space = NULL;
+    fresh.unused[0] = fresh.unused[1] = NULL;
+    const alp_result result = make_lighting(&fresh);
+    if (result != ALP_OK) { // the old light stays
+        clear_lighting(&fresh);
+        return result;
+    }
+    clear_lighting(sampler);
+    *sampler = fresh;
+    alp_ambience_invalidate(sampler->ambience, false, NULL, NULL);
+    return ALP_OK;
+}
+
+// --- light of the volume on surfaces -------------------------------------------------------------
+
+static void find_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
+                        vec3 *irradiance)
+{
+    const alp_ambience_snapshot *snapshot = user;
+    for (uint32_t i = 0; i < count; i++) {
+        alpi_sh9 radiance;
+        const double place[3] = {(double)points[i].x, (double)points[i].y, (double)points[i].z};
+        alp_ambience_coefficients(snapshot, place, &radiance);
+        const vec3 e = alpi_sh9_irradiance(&radiance, normals[i]);
+        irradiance[i] = (vec3){fmaxf(e.x, 0.0f), fmaxf(e.y, 0.0f), fmaxf(e.z, 0.0f)};
+    }
+}
+
+static const alpi_lighting *find_aimed(const alp_ambience_sampler *s)
+{
+    const double area = alpi_lighting_emitter_area(s->spots);
+    const bool small = area > 0.0 && area < AIMED_AREA * s->scene->area;
+    return small || alpi_lighting_sky(s->spots) != NULL ? s->spots : NULL;
+}
+
+// --- sampling ------------------------------------------------------------------------------------
+
+/// The random numbers of an anchor depend on its place alone: renewals have the same noise.
+static uint32_t key_of(const alpi_anchor *at)
+{
+    uint32_t key = 0;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t units = (uint32_t)((int64_t)at->index[k] * alpi_graph_width(at->level));
+        key = alpi_hash32(key ^ alpi_hash32(units + (uint32_t)k * 0x9e3779b9u));
+    }
+    return key;
+}
+
+/// Memory for the hits of a full sample; without it, they are not kept.
+static alpi_sphere_hit *hold_hits(alp_ambience *a, alpi_anchor *at, uint32_t face)
+{
+    if (at->hits != NULL && at->hits_face != face) {
+        drop_hits(a, at);
+    }
+    if (at->hits == NULL) {
+        const uint32_t count = alpi_sphere_hits_count(face);
+        at->hits = ALPI_NEW(a->context, alpi_sphere_hit, count);
+        at->hits_face = face;
+        a->hit_bytes += at->hits != NULL ? count * sizeof(alpi_sphere_hit) : 0;
+    }
+    return at->hits;
+}
+
+/// Adds an anchor to the batch. @return its cost in quarters of a sample
+static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t index)
+{
+    alp_ambience *a = s->ambience;
+    alpi_anchor *at = &a->anchors[anchor];
+    const bool first = at->state != ALPI_ANCHOR_LIT && s->options.first_face < s->options.face;
+    const uint32_t face = first ? s->options.first_face : s->options.face;
+    const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
+    double place[3];
+    alpi_sphere_hits_point *p = &s->points[index];
+    alpi_ambience_place(a, at->level, at->index, place);
+    *p = (alpi_sphere_hits_point){
+        .point = {(float)place[0], (float)place[1], (float)place[2]},
+        .key = key_of(at),
+        .face = face,
+        .traced = kept,
+        .moments = a->moments != NULL ? s->moments[index] : NULL,
+        .reach = 1.7320508f * (float)alpi_ambience_cell(a, at->level),
+        .direct = s->options.direct,
+    };
+    p->hits = first || !s->options.keep_hits ? NULL : hold_hits(a, at, face);
+    p->traced = kept && p->hits != NULL;
+    s->anchors[index] = anchor;
+    return p->traced ? QUARTERS / 2 : first ? 1 : QUARTERS;
+}
+
+static void take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_work *work)
+{
+    alp_ambience *a = s->ambience;
+    const alpi_sphere_hits_point *p = &s->points[index];
+    const uint32_t anchor = s->anchors[index];
+    work->samples += !p->traced;
+    work->relit += p->traced;
+    work->rays += p->traced ? 0 : alpi_sphere_hits_count(p->face);
+    if (!p->traced && p->value.behind > ALPI_FREE_BACKS) {
+        alpi_anchor_solid(a, anchor);
+        if (a->anchors[anchor].hits != NULL) {
+            drop_hits(a, &a->anchors[anchor]);
+        }
+        return;
+    }
+    const bool moments = a->moments != NULL && !p->traced;
+    alpi_anchor_light(a, anchor, &p->value.light,
+                      moments ? (const float(*)[2])s->moments[index] : NULL);
+    a->anchors[anchor].coarse = p->face < s->options.face;
+}
+
+static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_work *work)
+{
+    alp_ambience *a = s->ambience;
+    const alp_ambience_snapshot *now = alp_ambience_begin_read(a);
+    const alpi_sphere_relight how = {
+        .context = s->scene->context,
+        .scene = s->scene,
+        .tracer = s->tracer,
+        .lighting = s->soft,
+        .aimed = find_aimed(s),
+        .bounce = s->options.bounces ? find_bounce : NULL,
+        .bounce_user = now,
+        .bounce_cell_scale = CELL_SCALE,
+        .bounce_cell_least = (float)a->unit,
+        .seed = s->options.seed,
+    };
+    const alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);
+    alp_ambience_end_read(a, now);
+    for (uint32_t i = 0; i < count; i++) {
+        a->anchors[s->anchors[i]].pending = false;
+        if (result == ALP_OK) {
+            take_light(s, i, work);
+        }
+    }
+    return result;
+}
+
+/// Fills a batch. @param quarters what may be spent
+static alp_result fill(alp_ambience_sampler *s, const alp_ambience_camera *camera, uint32_t most,
+                       int64_t *quarters, uint32_t *count)
+{
+    *count = 0;
+    while (*count<most && * quarters> 0) {
+        uint32_t anchor;
+        ALP_TRY(alpi_ambience_choose(s->ambience, camera, &anchor));
+        if (anchor == ALPI_NO_ANCHOR) {
+            return ALP_OK;
+        }
+        *quarters -= add_point(s, anchor, (*count)++);
+    }
+    return ALP_OK;
+}
+
+alp_result alp_ambience_sample(alp_ambience_sampler *sampler, const alp_ambience_camera *camera,
+                               uint32_t samples, double milliseconds, alp_ambience_work *work)
+{
+    alp_ambience_work done = {0};
+    if (sampler == NULL || camera == NULL || !(milliseconds >= 0.0)) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    const double started = alpi_seconds();
+    const uint32_t workers = alp_context_worker_count(sampler->scene->context);
+    const bool timed = milliseconds > 0.0;
+    const uint32_t most = timed && 4 * workers < BATCH ? 4 * workers : BATCH;
+    int64_t quarters = (int64_t)samples * QUARTERS;
+    alp_result result = ALP_OK;
+    uint32_t count = 1;
+    while (result == ALP_OK && count > 0 &&
+           !(timed && 1e3 * (alpi_seconds() - started) >= milliseconds)) {
+        result = fill(sampler, camera, most, &quarters, &count);
+        if (count > 0) {
+            const alp_result gathered = gather(sampler, count, &done);
+            result = result == ALP_OK ? gathered : result;
+        }
+    }
+    done.seconds = alpi_seconds() - started;
+    if (work != NULL) {
+        *work = done;
+    }
+    return result;
+}
