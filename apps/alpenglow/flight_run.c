@@ -159,7 +159,8 @@ static alp_result make_volume(const command_line *a, flight_run *run)
 int flight_run_open(session *s, const command_line *a, const alp_lighting_options *lighting,
                     flight_run *run)
 {
-    *run = (flight_run){.session = s, .noon = *lighting, .lighting = *lighting};
+    *run = (flight_run){
+        .session = s, .noon = *lighting, .lighting = *lighting, .opened = clock_seconds()};
     run->day = a->values[OPTION_DAY].given ? a->values[OPTION_DAY].real : 0.0;
     run->budget = (uint32_t)a->values[OPTION_BUDGET].whole;
     if (a->values[OPTION_BUDGET_MS].given) {
@@ -194,12 +195,12 @@ bool flight_run_progress(void *user, const alp_progress *unused)
     (void)unused;
     const double done = (double)run->frame, left = (double)run->frame_count - done;
     const bool known = run->frame > 0;
-    const alp_progress state = {.stage = "fly",
-                                .done = run->frame,
-                                .total = run->frame_count,
-                                .rays_per_second =
-                                    run->seconds > 0.0 ? (double)run->rays / run->seconds : 0.0,
-                                .seconds_left = known ? run->seconds * left / done : -1.0};
+    const alp_progress state = {
+        .stage = "fly",
+        .done = run->frame,
+        .total = run->frame_count,
+        .rays_per_second = run->seconds > 0.0 ? (double)run->rays / run->seconds : 0.0,
+        .seconds_left = known ? (clock_seconds() - run->opened) * left / done : -1.0};
     return session_progress(run->session, &state);
 }
 

@@ -25,6 +25,7 @@ typedef struct flight_run {
     uint64_t frame, frame_count; // done; to the end of the flight or --time
     uint64_t rays;
     double seconds; // of the clock, spent in frames
+    double opened;  // by the clock
 } flight_run;
 
 /// One frame.

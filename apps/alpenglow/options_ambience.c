@@ -48,7 +48,8 @@ static const option rows[] = {
      .maximum = 65536,
      .unit = "samples a frame",
      .initial = "100",
-     .help = "Anchors that a frame may sample. One that is relit counts a half."},
+     .help = "Work of a frame, in samples of an anchor. The first, coarse sample of an anchor "
+             "counts a quarter, and relighting a half."},
     {.id = OPTION_BUDGET_MS,
      .commands = FLIGHT_COMMANDS,
      .group = GROUP_FLIGHT,

@@ -5,7 +5,7 @@ fly="alpenglow ambience builtin:cornell --path flight.csv --fps 10 --budget 20"
 counts() { cut -d , -f 1-4; }
 $fly --reference-samples 16 --csv seconds.csv --json seconds.json -q
 head -n 1 seconds.csv
-tail -n +2 seconds.csv | awk -F , '{print $1, ($2 > 0 ? "anchors" : "none"), ($3 > 0 && $3 <= 200 ? "samples" : $3),
+tail -n +2 seconds.csv | awk -F , '{print $1, ($2 > 0 ? "anchors" : "none"), ($3 > 0 && $3 <= 800 ? "samples" : $3),
     ($4 > 0 ? "bytes" : "none"), ($5 >= 0 ? "ms" : "none"), ($6 > 0 && $6 < 100 ? "error" : $6)}'
 json_shape seconds.json
 echo "last anchors"

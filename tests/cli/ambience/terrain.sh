@@ -7,3 +7,4 @@ seconds --time 3 >own.csv
 seconds --time 3 --day 12 | cut -d , -f 1 | cmp - <(cut -d , -f 1 own.csv) && echo "a day"
 seconds --time 3 --prediction path --flat on --depth 4 --cell 2 | wc -l
 $fly --day 8 --csv - --reference-samples 16 --time 6 | awk -F , 'NR > 1 {print $1, ($6 != "" ? "error" : "none")}'
+alpenglow ambience builtin:terrain,triangles=5000 --time 1 2>&1 || echo "exit $?"
