@@ -39,6 +39,17 @@ void alpi_ambience_place(const alp_ambience *a, uint32_t level, const int32_t in
     }
 }
 
+void alpi_anchor_place(const alp_ambience *a, const alpi_anchor *at, double place[3])
+{
+    const double cell = alpi_ambience_cell(a, at->level);
+    for (int k = 0; k < 3; k++) {
+        place[k] = a->options.centre[k] + cell * (double)at->index[k];
+    }
+    if (a->options.flat) {
+        place[1] = (double)at->height;
+    }
+}
+
 bool alpi_ambience_index(const alp_ambience *a, uint32_t level, const double place[3],
                          int32_t index[3])
 {
@@ -92,6 +103,8 @@ static alp_result create(alp_ambience *a)
     const alp_ambience_options *o = &a->options;
     const uint32_t chain = (o->depth + 2) * ALPI_GRAPH_CHILDREN;
     a->unit = o->size / (double)alpi_graph_width(o->depth);
+    alpi_lights_open(a->context, o->visibility, &a->lights);
+    alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
     a->rate = 1e6; // until hosts show otherwise
     a->time = a->first_time = a->planned_time = NAN;
@@ -138,8 +151,8 @@ void alp_ambience_destroy(alp_ambience *a)
     alpi_snapshots_destroy(a);
     alpi_graph_destroy(&a->graph);
     alpi_release(a->context, a->anchors);
-    alpi_release(a->context, a->moments);
-    alpi_release(a->context, a->next_moments);
+    alpi_lights_close(&a->lights);
+    alpi_lights_close(&a->nexts);
     alpi_release(a->context, a->slots);
     alpi_release(a->context, a->wishes);
     alpi_release(a->context, a);
@@ -153,13 +166,14 @@ static void find_base(alp_ambience *a)
     double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         const alpi_anchor *at = &a->anchors[i];
-        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f)) {
+        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) ||
+            at->slot == ALPI_NO_SLOT) {
             continue;
         }
         const double width = (double)alpi_graph_width(at->level);
         const double w = (double)at->confidence * width * width * (a->options.flat ? 1.0 : width);
         for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
-            sums[k] += w * (double)at->light[k];
+            sums[k] += w * (double)a->lights.light[at->slot][k];
         }
         total += w;
     }
@@ -196,7 +210,7 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
     const double step = isnan(a->time) ? 0.0 : time - a->time;
     a->first_time = isnan(a->time) ? time : a->first_time;
     a->time = time;
-    alpi_requests_collect(a);
+    ALP_TRY(alpi_requests_collect(a));
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
     find_base(a);
@@ -212,7 +226,7 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
         bool inside = true;
-        alpi_ambience_place(ambience, at->level, at->index, place);
+        alpi_anchor_place(ambience, at, place);
         for (int k = 0; k < 3 && box_min != NULL && box_max != NULL; k++) {
             inside = inside && place[k] >= box_min[k] && place[k] <= box_max[k];
         }
@@ -247,10 +261,12 @@ alp_ambience_info alp_ambience_get_info(const alp_ambience *a)
     info.open = alpi_requests_count(a);
     uint64_t distances = 0;
     const uint64_t shots = alpi_snapshots_bytes(a, &distances);
-    const uint64_t own = a->moments != NULL ? 2 * a->anchor_capacity * sizeof *a->moments : 0;
+    const uint64_t own = (a->lights.moment_capacity + a->nexts.moment_capacity) *
+                         sizeof *a->lights.moments;
     info.bytes_visibility = distances + own;
     info.bytes_hits = a->hit_bytes;
     info.bytes = sizeof *a + shots + own + a->graph.node_capacity * sizeof *a->graph.nodes +
+                 (a->lights.capacity + a->nexts.capacity) * sizeof *a->lights.light +
                  a->anchor_capacity * sizeof *a->anchors + a->wish_capacity * sizeof *a->wishes +
                  a->hit_bytes;
     info.time = a->time;

@@ -32,9 +32,10 @@ typedef struct alpi_anchor {
     bool stale_trace;                  // geometry changed since
     bool coarse;                       // sampled by few rays
     float height;                      // flat: metres of its place along y
-    float light[ALPI_AMBIENCE_FLOATS]; // active coefficients, as readers see them
-    float next[ALPI_AMBIENCE_FLOATS];  // what they become
-    float fade_left;                   // seconds until then; 0: they are
+    uint32_t slot;      // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
+    uint32_t next;      // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
+    float mean;         // E of its light
+    float fade_left;       // seconds until then
     float confidence;                  // [0, 1]
     float confidence_rate;             // 1/s, below 0 while leaving
     float open;                        // 1: no solid, as far as is known; 0: solid
@@ -64,10 +65,9 @@ struct alp_ambience {
     alpi_graph graph;
 
     alpi_anchor *anchors;
-    float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // of each; NULL without visibility
-    float (*next_moments)[ALPI_AMBIENCE_MOMENTS][2];
     size_t anchor_capacity;
     uint32_t anchor_end, free_anchor, anchor_count;
+    alpi_light_pool lights, nexts;
 
     alpi_request_slot *slots;
     uint32_t slot_serial;
@@ -107,8 +107,11 @@ static inline double alpi_ambience_cell(const alp_ambience *ambience, uint32_t l
 /// Makes the anchor of a node. @param anchor out: NO_ANCHOR at the limit
 alp_result alpi_anchor_create(alp_ambience *ambience, uint32_t node, uint32_t *anchor);
 void alpi_anchor_release(alp_ambience *ambience, uint32_t anchor);
+/// Metres, as alpi_ambience_place; the height of the ground is that when the anchor was made.
+void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, double place[3]);
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
-void alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
+/// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
+alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
                        const float (*moments)[2]);
 void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor);
 /// Fades, expires and releases all by a step of time.
@@ -122,7 +125,8 @@ alp_result alpi_requests_create(alp_ambience *ambience);
 /// Opens a request for an anchor. @return its number; 0: too many are open
 uint64_t alpi_request_open(alp_ambience *ambience, uint32_t anchor);
 /// Gives answers to their anchors, and drops requests that are too old.
-void alpi_requests_collect(alp_ambience *ambience);
+/// @return ALP_OK; OUT_OF_MEMORY: some answers are lost, and their anchors are wanted again
+alp_result alpi_requests_collect(alp_ambience *ambience);
 uint32_t alpi_requests_count(const alp_ambience *ambience);
 
 // --- planning ------------------------------------------------------------------------------------

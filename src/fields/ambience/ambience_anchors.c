@@ -24,19 +24,8 @@ alp_result alpi_anchor_create(alp_ambience *a, uint32_t node, uint32_t *anchor)
     }
     uint32_t made = a->free_anchor;
     if (made == ALPI_NO_ANCHOR) {
-        const size_t needed = (size_t)a->anchor_end + 1;
-        if (needed > a->anchor_capacity) {
-            size_t grown = a->anchor_capacity;
-            if (a->options.visibility) {
-                size_t each[2] = {grown, grown};
-                ALP_TRY(alpi_grow(a->context, (void **)&a->moments, &each[0], needed,
-                                  sizeof *a->moments));
-                ALP_TRY(alpi_grow(a->context, (void **)&a->next_moments, &each[1], needed,
-                                  sizeof *a->next_moments));
-            }
-            ALP_TRY(alpi_grow(a->context, (void **)&a->anchors, &a->anchor_capacity, needed,
-                              sizeof *a->anchors));
-        }
+        ALP_TRY(alpi_grow_tightly(a->context, (void **)&a->anchors, &a->anchor_capacity,
+                                  (size_t)a->anchor_end + 1, sizeof *a->anchors));
         made = a->anchor_end++;
     } else {
         a->free_anchor = a->anchors[made].next_free;
@@ -49,6 +38,7 @@ alp_result alpi_anchor_create(alp_ambience *a, uint32_t node, uint32_t *anchor)
     memcpy(new->index, top->index, sizeof new->index);
     new->level = top->level;
     new->state = ALPI_ANCHOR_EMPTY;
+    new->slot = new->next = ALPI_NO_SLOT;
     new->open = 1.0f;
     new->wanted = a->time;
     double place[3];
@@ -70,6 +60,8 @@ void alpi_anchor_release(alp_ambience *a, uint32_t anchor)
     if (a->drop_hits != NULL && old->hits != NULL) {
         a->drop_hits(a, old);
     }
+    alpi_lights_give(&a->lights, &old->slot);
+    alpi_lights_give(&a->nexts, &old->next);
     old->state = ALPI_ANCHOR_FREE;
     old->next_free = a->free_anchor;
     a->free_anchor = anchor;
@@ -113,57 +105,84 @@ static bool is_first(const alp_ambience *a)
     return !(a->time > a->first_time);
 }
 
-/// Distances, which fade as light does. Without any, a renewed anchor keeps its own, and a new one
-/// sees everything.
-static void take_moments(alp_ambience *a, uint32_t anchor, const float (*moments)[2], bool renewed,
-                         bool at_once)
+/// Distances of an anchor without any: it sees everything.
+static void see_all(alpi_light_pool *pool, uint32_t slot)
 {
-    static const float far[2] = {1e9f, 1e18f};
-    if (a->moments == NULL) {
-        return;
-    }
-    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && (moments != NULL || !renewed); i++) {
-        memcpy(a->next_moments[anchor][i], moments != NULL ? moments[i] : far, sizeof far);
-    }
-    if (!renewed || at_once) {
-        memcpy(a->moments[anchor], a->next_moments[anchor], sizeof *a->moments);
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && pool->visibility; i++) {
+        pool->moments[slot][i][0] = 1e9f;
+        pool->moments[slot][i][1] = 1e18f;
     }
 }
 
-void alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
-                       const float (*moments)[2])
+static void put(alpi_light_pool *pool, uint32_t slot, const alpi_sh9 *radiance,
+                const float (*moments)[2])
 {
-    alpi_anchor *at = &a->anchors[anchor];
-    const bool renewed = at->state == ALPI_ANCHOR_LIT;
+    memcpy(pool->light[slot], radiance->c, sizeof *pool->light);
+    if (pool->visibility && moments != NULL) {
+        memcpy(pool->moments[slot], moments, sizeof *pool->moments);
+    }
+}
+
+/// Relative change of E by new light, against what readers see at the anchor now.
+static float find_change(const alp_ambience *a, const alpi_anchor *at, const alpi_sh9 *radiance)
+{
     const float mean = alpi_ambience_mean(a->base);
-    float before[ALPI_AMBIENCE_FLOATS];
-    memcpy(at->next, radiance->c, sizeof at->next);
-    if (renewed) {
-        memcpy(before, at->light, sizeof before);
+    float before[ALPI_AMBIENCE_FLOATS], now[ALPI_AMBIENCE_FLOATS];
+    memcpy(now, radiance->c, sizeof now);
+    if (at->slot != ALPI_NO_SLOT) {
+        memcpy(before, a->lights.light[at->slot], sizeof before);
     } else {
         double place[3];
-        alpi_ambience_place(a, at->level, at->index, place);
+        alpi_anchor_place(a, at, place);
         alpi_ambience_read(published(a), place, before);
-        memcpy(at->light, at->next, sizeof at->light);
-        at->state = ALPI_ANCHOR_LIT;
     }
-    at->change = mean > 0.0f ? find_difference(at->next, before) / mean : 0.0f;
+    return mean > 0.0f ? find_difference(now, before) / mean : 0.0f;
+}
+
+/// Slots for new light. A first light takes the place of none.
+static alp_result take_slots(alp_ambience *a, alpi_anchor *at, bool renewed)
+{
+    if (at->slot == ALPI_NO_SLOT) {
+        ALP_TRY(alpi_lights_take(&a->lights, &at->slot));
+        see_all(&a->lights, at->slot);
+    }
+    if (renewed && at->next == ALPI_NO_SLOT) {
+        ALP_TRY(alpi_lights_take(&a->nexts, &at->next));
+        if (a->lights.visibility) { // without new distances the old ones stay
+            memcpy(a->nexts.moments[at->next], a->lights.moments[at->slot],
+                   sizeof *a->nexts.moments);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
+                             const float (*moments)[2])
+{
+    alpi_anchor *at = &a->anchors[anchor];
+    const bool renewed = at->slot != ALPI_NO_SLOT && !is_first(a);
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
-    float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
-    fade = is_first(a) ? 0.0f : fade;
-    at->confidence_rate =
-        fade > 0.0f ? (renewed ? fmaxf(at->confidence_rate, 1.0f / fade) : 1.0f / fade) : 0.0f;
-    at->fade_left = renewed ? fade : 0.0f;
-    if (!(fade > 0.0f)) {
-        memcpy(at->light, at->next, sizeof at->light);
-        at->confidence = 1.0f;
+    at->pending = false;
+    at->change = find_change(a, at, radiance);
+    ALP_TRY(take_slots(a, at, renewed));
+    const float fade = is_first(a) ? 0.0f : fminf(fmaxf(at->change / FADE_RATE, least), most);
+    if (renewed && fade > 0.0f) {
+        put(&a->nexts, at->next, radiance, moments);
+        at->fade_left = fade;
+    } else {
+        put(&a->lights, at->slot, radiance, moments);
+        alpi_lights_give(&a->nexts, &at->next);
+        at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     }
-    take_moments(a, anchor, moments, renewed, !(fade > 0.0f));
-    at->leaving = at->pending = at->stale_light = at->stale_trace = false;
+    at->confidence = fade > 0.0f ? at->confidence : 1.0f;
+    at->confidence_rate = fade > 0.0f ? fmaxf(at->confidence_rate, 1.0f / fade) : 0.0f;
+    at->state = ALPI_ANCHOR_LIT;
+    at->leaving = at->stale_light = at->stale_trace = false;
     at->born = a->time;
     at->open = 1.0f;
     at->version++;
     a->taken++;
+    return ALP_OK;
 }
 
 void alpi_anchor_solid(alp_ambience *a, uint32_t anchor)
@@ -176,6 +195,7 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor)
         at->state = ALPI_ANCHOR_SOLID;
         at->solid_time = 0.0f;
         at->leaving = false;
+        alpi_lights_give(&a->nexts, &at->next);
         at->confidence_rate = at->confidence > 0.0f ? -1.0f : 0.0f;
         if (is_first(a)) {
             at->open = at->confidence = 0.0f;
@@ -194,22 +214,16 @@ static float solid_openness(float u)
     return u >= 1.0f ? 0.0f : SOLID_SHARE * (1.0f - u) / (SOLID_SHARE + (1.0f - SOLID_SHARE) * u);
 }
 
-static void fade_light(alp_ambience *a, uint32_t anchor, float step)
+static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
 {
-    alpi_anchor *at = &a->anchors[anchor];
-    const float share = step >= at->fade_left ? 1.0f : step / at->fade_left;
-    at->fade_left = fmaxf(at->fade_left - step, 0.0f);
-    for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
-        at->light[i] =
-            share < 1.0f ? at->light[i] + share * (at->next[i] - at->light[i]) : at->next[i];
+    if (step < at->fade_left) {
+        alpi_lights_blend(&a->lights, at->slot, &a->nexts, at->next, step / at->fade_left);
+        at->fade_left -= step;
+    } else {
+        alpi_lights_copy(&a->lights, at->slot, &a->nexts, at->next);
+        alpi_lights_give(&a->nexts, &at->next);
     }
-    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && a->moments != NULL; i++) {
-        for (int k = 0; k < 2; k++) {
-            float *m = &a->moments[anchor][i][k];
-            const float next = a->next_moments[anchor][i][k];
-            *m = share < 1.0f ? *m + share * (next - *m) : next;
-        }
-    }
+    at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     at->version++;
 }
 
@@ -227,7 +241,7 @@ static void fade_confidence(alpi_anchor *at, float step)
 static float loss_without(const alp_ambience *a, const alpi_anchor *at)
 {
     const float mean = alpi_ambience_mean(a->base);
-    return mean > 0.0f ? find_difference(at->light, a->base) / mean : 0.0f;
+    return mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / mean : 0.0f;
 }
 
 /// Closes a solid, or opens it again when it has not been renewed for long.
@@ -265,10 +279,13 @@ void alpi_anchors_step(alp_ambience *a, double step)
         }
         fade_confidence(at, dt);
         if (at->state == ALPI_ANCHOR_SOLID) {
+            if (!(at->confidence > 0.0f)) {
+                alpi_lights_give(&a->lights, &at->slot);
+            }
             step_solid(a, at, dt);
         } else if (at->state == ALPI_ANCHOR_LIT) {
-            if (at->fade_left > 0.0f) {
-                fade_light(a, i, dt);
+            if (at->next != ALPI_NO_SLOT) {
+                fade_light(a, at, dt);
             }
             step_lit(a, at);
         }

@@ -2,6 +2,7 @@
 #include "fields/ambience/ambience_graph.h"
 
 #include "base/memory.h"
+#include "fields/ambience/ambience_lights.h"
 
 #include <string.h>
 
@@ -29,8 +30,8 @@ static alp_result take_block(alpi_graph *g, uint32_t *block)
         *block = g->free_block;
         g->free_block = g->nodes[*block].child;
     } else {
-        ALP_TRY(alpi_grow(g->context, (void **)&g->nodes, &g->node_capacity,
-                          (size_t)g->node_end + count, sizeof *g->nodes));
+        ALP_TRY(alpi_grow_tightly(g->context, (void **)&g->nodes, &g->node_capacity,
+                                  (size_t)g->node_end + count, sizeof *g->nodes));
         *block = g->node_end;
         g->node_end += count;
     }

@@ -131,7 +131,7 @@ static inline bool find_anchors(const point_search *p, const level_lattice *l, l
         if (node != NULL && node->anchor != ALPI_NO_ANCHOR) {
             const alpi_read_anchor *a = &s->anchors[node->anchor];
             at->open[i] = a->open;
-            if (a->confidence > 0.0f && at->trilinear[i] > 0.0f) {
+            if (a->confidence > 0.0f && a->slot != ALPI_NO_SLOT && at->trilinear[i] > 0.0f) {
                 at->anchor[i] = a;
                 at->confidence[i] = a->confidence < node->share ? a->confidence : node->share;
                 any = any || at->confidence[i] > 0.0f;
@@ -194,7 +194,7 @@ static inline void find_seen(const point_search *p, uint32_t level, const level_
         if (distance <= a->clear) {
             continue;
         }
-        const vec2 m = read_moments((const float(*)[2])s->moments[a - s->anchors], way);
+        const vec2 m = read_moments((const float(*)[2])s->moments[a->slot], way);
         const float beyond = larger(distance - m.x, 0.0f);
         const float variance = fabsf(m.y - m.x * m.x) + 1e-12f;
         const float share = variance / (variance + beyond * beyond);
@@ -205,12 +205,13 @@ static inline void find_seen(const point_search *p, uint32_t level, const level_
 
 // --- sums ----------------------------------------------------------------------------------------
 
-static inline void add_light(const level_anchors *at, const float weight[CORNERS],
+static inline void add_light(const point_search *p, const level_anchors *at,
+                             const float weight[CORNERS],
                              float light[ALPI_AMBIENCE_FLOATS])
 {
     for (int c = 0; c < CORNERS; c++) {
         if (at->anchor[c] != NULL) {
-            const float *restrict from = at->anchor[c]->light;
+            const float *restrict from = p->s->light[at->anchor[c]->slot];
             const float w = weight[c];
             for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
                 light[i] += w * from[i];
@@ -250,7 +251,7 @@ static inline float add_level(const point_search *p, uint32_t level, float rest,
     for (int i = 0; i < CORNERS; i++) {
         weight[i] *= scale;
     }
-    add_light(&at, weight, light);
+    add_light(p, &at, weight, light);
     return rest - trusted * scale;
 }
 
@@ -274,7 +275,7 @@ static inline float add_octants(const point_search *p, uint32_t level,
     for (int i = 0; i < CORNERS; i++) {
         weight[i] /= total;
     }
-    add_light(&at, weight, light);
+    add_light(p, &at, weight, light);
     return 0.0f;
 }
 

@@ -176,7 +176,7 @@ static float expect_change(const plan *p, uint32_t level, const int32_t index[3]
     if (n->anchor == ALPI_NO_ANCHOR || a->anchors[n->anchor].state != ALPI_ANCHOR_LIT) {
         return 1.0f;
     }
-    const float here = alpi_ambience_mean(a->anchors[n->anchor].light);
+    const float here = a->anchors[n->anchor].mean;
     float most = 0.0f;
     for (int d = 0; d < ALPI_GRAPH_DIRECTIONS; d++) {
         const uint32_t other = n->neighbour[d];
@@ -185,7 +185,7 @@ static float expect_change(const plan *p, uint32_t level, const int32_t index[3]
             continue;
         }
         const bool solid = a->anchors[at].state == ALPI_ANCHOR_SOLID;
-        const float there = solid ? here + p->mean : alpi_ambience_mean(a->anchors[at].light);
+        const float there = solid ? here + p->mean : a->anchors[at].mean;
         most = fmaxf(most, fabsf(there - here));
     }
     return fminf(most / p->mean, 1.0f);
@@ -222,7 +222,7 @@ static void add_wish(plan *p, uint32_t level, const int32_t index[3], float urge
 {
     alp_ambience *a = p->a;
     if (p->result == ALP_OK) {
-        p->result = alpi_grow(a->context, (void **)&a->wishes, &a->wish_capacity,
+        p->result = alpi_grow_tightly(a->context, (void **)&a->wishes, &a->wish_capacity,
                               (size_t)a->wish_count + 1, sizeof *a->wishes);
     }
     if (p->result == ALP_OK) {
@@ -423,7 +423,7 @@ alp_result alp_ambience_next(alp_ambience *ambience, const alp_ambience_camera *
         at->pending = false;
         return ALP_OK;
     }
-    alpi_ambience_place(ambience, at->level, at->index, request->position);
+    alpi_anchor_place(ambience, at, request->position);
     request->cell = alpi_ambience_cell(ambience, at->level);
     request->renewal = at->state == ALPI_ANCHOR_LIT;
     request->relight = request->renewal && at->stale_light && !at->stale_trace;

@@ -143,10 +143,11 @@ static void drop_void(alp_ambience *a, alpi_request_slot *slot, uint64_t word)
     }
 }
 
-void alpi_requests_collect(alp_ambience *a)
+alp_result alpi_requests_collect(alp_ambience *a)
 {
+    alp_result result = ALP_OK;
     if (!a->requests_open) {
-        return;
+        return ALP_OK;
     }
     a->requests_open = false;
     for (uint32_t i = 0; i < SLOTS; i++) {
@@ -156,7 +157,8 @@ void alpi_requests_collect(alp_ambience *a)
             if (slot->solid) {
                 alpi_anchor_solid(a, slot->anchor);
             } else {
-                alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
+                const alp_result one = alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
+                result = result == ALP_OK ? one : result;
             }
             atomic_store(&slot->word, (word & ~(uint64_t)3u) | FREE);
         } else if ((word & 3u) == OPEN) {
@@ -164,4 +166,5 @@ void alpi_requests_collect(alp_ambience *a)
         }
         a->requests_open |= (atomic_load(&slot->word) & 3u) != FREE;
     }
+    return result;
 }

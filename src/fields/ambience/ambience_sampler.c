@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "fields/ambience/ambience.h"
+#include "fields/ambience/ambience_ground.h"
 #include "fields/truth.h"
 #include "scene/lights/lighting.h"
 #include "transport/sphere/sphere_hits.h"
@@ -18,7 +19,7 @@ enum { BATCH = 64, QUARTERS = 4 /* cost of a sample */, QUICK_FACE = 4 };
 /// Rays are aimed at emissive surfaces that are less than this share of all surfaces.
 static const double AIMED_AREA = 0.1;
 /// A cell in the window of the camera is about this share of its distance.
-static const float CELL_SCALE = 0.3f;
+static const float CELL_SCALE = 1.0f;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
@@ -89,6 +90,12 @@ static alp_result make_lighting(alp_ambience_sampler *s)
     return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
 }
 
+static double find_height(void *user, double x, double z)
+{
+    const alp_ambience_sampler *s = user;
+    return alpi_ground_height(s->scene, s->tracer, x, z);
+}
+
 static alp_result start(alp_ambience_sampler *s)
 {
     ALP_TRY(alpi_tracer_for_scene(s->scene, NULL, NULL, &s->tracer, NULL));
@@ -120,6 +127,10 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         return result;
     }
     ambience->drop_hits = drop_hits;
+    if (ambience->options.flat && ambience->options.height == NULL) {
+        ambience->options.height = find_height;
+        ambience->options.height_user = s;
+    }
     *sampler = s;
     return ALP_OK;
 }
@@ -128,6 +139,10 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
 {
     if (s == NULL) {
         return;
+    }
+    if (s->ambience->options.height_user == s) {
+        s->ambience->options.height = NULL;
+        s->ambience->options.height_user = NULL;
     }
     clear_lighting(s);
     alpi_release(s->scene->context, s->moments);
@@ -215,13 +230,13 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
     const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
     double place[3];
     alpi_sphere_hits_point *p = &s->points[index];
-    alpi_ambience_place(a, at->level, at->index, place);
+    alpi_anchor_place(a, at, place);
     *p = (alpi_sphere_hits_point){
         .point = {(float)place[0], (float)place[1], (float)place[2]},
         .key = key_of(at),
         .face = face,
         .traced = kept,
-        .moments = a->moments != NULL ? s->moments[index] : NULL,
+        .moments = a->lights.visibility ? s->moments[index] : NULL,
         .reach = 1.7320508f * (float)alpi_ambience_cell(a, at->level),
         .direct = s->options.direct,
     };
@@ -231,7 +246,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
     return p->traced ? QUARTERS / 2 : first ? 1 : QUARTERS;
 }
 
-static void take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_work *work)
+static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_work *work)
 {
     alp_ambience *a = s->ambience;
     const alpi_sphere_hits_point *p = &s->points[index];
@@ -244,12 +259,12 @@ static void take_light(alp_ambience_sampler *s, uint32_t index, alp_ambience_wor
         if (a->anchors[anchor].hits != NULL) {
             drop_hits(a, &a->anchors[anchor]);
         }
-        return;
+        return ALP_OK;
     }
-    const bool moments = a->moments != NULL && !p->traced;
-    alpi_anchor_light(a, anchor, &p->value.light,
-                      moments ? (const float(*)[2])s->moments[index] : NULL);
+    const bool moments = a->lights.visibility && !p->traced;
     a->anchors[anchor].coarse = p->face < s->options.face;
+    return alpi_anchor_light(a, anchor, &p->value.light,
+                             moments ? (const float(*)[2])s->moments[index] : NULL);
 }
 
 static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_work *work)
@@ -268,12 +283,12 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .bounce_cell_least = (float)a->unit,
         .seed = s->options.seed,
     };
-    const alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);
+    alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);
     alp_ambience_end_read(a, now);
     for (uint32_t i = 0; i < count; i++) {
         a->anchors[s->anchors[i]].pending = false;
         if (result == ALP_OK) {
-            take_light(s, i, work);
+            result = take_light(s, i, work);
         }
     }
     return result;

@@ -36,13 +36,16 @@ static alp_ambience_snapshot *find_writable(alp_ambience *ambience, alp_result *
 
 static alp_result make_room(const alp_ambience *a, alp_ambience_snapshot *s)
 {
-    ALP_TRY(alpi_grow(a->context, (void **)&s->nodes, &s->node_capacity, a->graph.node_end,
-                      sizeof *s->nodes));
-    ALP_TRY(alpi_grow(a->context, (void **)&s->anchors, &s->anchor_capacity, a->anchor_end,
-                      sizeof *s->anchors));
-    if (a->moments != NULL) {
-        ALP_TRY(alpi_grow(a->context, (void **)&s->moments, &s->moment_capacity, a->anchor_end,
-                          sizeof *s->moments));
+    alp_context *context = a->context;
+    ALP_TRY(alpi_grow_tightly(context, (void **)&s->nodes, &s->node_capacity, a->graph.node_end,
+                              sizeof *s->nodes));
+    ALP_TRY(alpi_grow_tightly(context, (void **)&s->anchors, &s->anchor_capacity, a->anchor_end,
+                              sizeof *s->anchors));
+    ALP_TRY(alpi_grow_tightly(context, (void **)&s->light, &s->light_capacity, a->lights.end,
+                              sizeof *s->light));
+    if (a->lights.visibility) {
+        ALP_TRY(alpi_grow_tightly(context, (void **)&s->moments, &s->moment_capacity, a->lights.end,
+                                  sizeof *s->moments));
     }
     return ALP_OK;
 }
@@ -92,14 +95,18 @@ static void copy_anchors(const alp_ambience *a, alp_ambience_snapshot *s)
         if (to->version == from->version) {
             continue;
         }
-        memcpy(to->light, from->light, sizeof to->light);
+        to->slot = from->slot;
         to->confidence = from->confidence;
         to->open = from->open;
         to->height = from->height;
         to->version = from->version;
-        if (a->moments != NULL) {
-            memcpy(s->moments[i], a->moments[i], sizeof *s->moments);
-            to->clear = find_clear((const float(*)[2])a->moments[i]);
+        if (from->slot == ALPI_NO_SLOT) {
+            continue;
+        }
+        memcpy(s->light[from->slot], a->lights.light[from->slot], sizeof *s->light);
+        if (a->lights.visibility) {
+            memcpy(s->moments[from->slot], a->lights.moments[from->slot], sizeof *s->moments);
+            to->clear = find_clear((const float(*)[2])s->moments[from->slot]);
         }
     }
 }
@@ -142,6 +149,7 @@ void alpi_snapshots_destroy(alp_ambience *a)
         alp_ambience_snapshot *s = a->snapshots.all[i];
         alpi_release(a->context, s->nodes);
         alpi_release(a->context, s->anchors);
+        alpi_release(a->context, s->light);
         alpi_release(a->context, s->moments);
         alpi_release(a->context, s);
     }
@@ -155,7 +163,8 @@ uint64_t alpi_snapshots_bytes(const alp_ambience *a, uint64_t *moments)
         const alp_ambience_snapshot *s = a->snapshots.all[i];
         const uint64_t distances = s->moment_capacity * sizeof *s->moments;
         bytes += sizeof *s + s->node_capacity * sizeof *s->nodes +
-                 s->anchor_capacity * sizeof *s->anchors + distances;
+                 s->anchor_capacity * sizeof *s->anchors + s->light_capacity * sizeof *s->light +
+                 distances;
         *moments += distances;
     }
     return bytes;

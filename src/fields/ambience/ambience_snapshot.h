@@ -18,21 +18,19 @@
 #include "base/context.h"
 #include "base/vec.h"
 #include "fields/ambience/ambience_graph.h"
+#include "fields/ambience/ambience_lights.h"
 #include "sh/sh9.h"
 
 #include <alpenglow/ambience.h>
 
 #include <stdatomic.h>
 
-enum {
-    ALPI_AMBIENCE_FLOATS = 3 * ALPI_SH9_COUNT,
-    ALPI_AMBIENCE_MOMENTS = 64,
-    ALPI_AMBIENCE_SNAPSHOTS = 16
-};
+enum { ALPI_AMBIENCE_SNAPSHOTS = 16 };
+_Static_assert((int)ALPI_AMBIENCE_FLOATS == 3 * (int)ALPI_SH9_COUNT, "nine coefficients");
 
 /// An anchor as look-ups read it.
 typedef struct alpi_read_anchor {
-    float light[ALPI_AMBIENCE_FLOATS]; // c_lm by coefficient and channel
+    uint32_t slot; // of its light; NO_SLOT: none
     float confidence, open, height;
     float clear;      // metres that it sees in all directions
     uint32_t version; // 0: never written
@@ -58,8 +56,9 @@ struct alp_ambience_snapshot {
     alpi_read_node *nodes;
     size_t node_capacity;
     alpi_read_anchor *anchors;
+    float (*light)[ALPI_AMBIENCE_FLOATS];       // c_lm by slot, coefficient and channel
     float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility
-    size_t anchor_capacity, moment_capacity;
+    size_t anchor_capacity, light_capacity, moment_capacity;
     float base[ALPI_AMBIENCE_FLOATS];
     atomic_uint readers;
 };

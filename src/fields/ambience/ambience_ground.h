@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The ground of a scene, for flat ambience volumes.
+#ifndef ALPI_FIELDS_AMBIENCE_GROUND_H
+#define ALPI_FIELDS_AMBIENCE_GROUND_H
+
+#include "trace/trace.h"
+
+/// Height of the ground at a place, metres: that of the topmost surface. Where this stands more than
+/// 3 m above the lowest of those within 2 m along x and z, it is a thing on the ground, and the
+/// lowest counts. Outside of the scene: its lowest height.
+double alpi_ground_height(const alp_scene *scene, const alpi_tracer *tracer, double x, double z);
+
+#endif
