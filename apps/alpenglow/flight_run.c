@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { WARM_BOUNCES = 5 };
 enum { BUDGET_LIMIT = 65536, LIGHT_STEPS = 4, DEPTH_LIMIT = 10 }; // LIGHT_STEPS: a second
 
 // --- options -------------------------------------------------------------------------------------
@@ -61,7 +62,8 @@ int flight_run_refuse(const command_line *a)
                {"--flat", OPTION_FLAT},
                {"--prediction", OPTION_PREDICTION},
                {"--day", OPTION_DAY},
-               {"--visibility", OPTION_VISIBILITY}};
+               {"--visibility", OPTION_VISIBILITY},
+               {"--warm", OPTION_WARM}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         if (a->values[own[i].id].given) {
             return usage_error(a->command, "%s: does not apply to --with %s", own[i].name,
@@ -71,8 +73,19 @@ int flight_run_refuse(const command_line *a)
     return EXIT_DONE;
 }
 
-/// Finest cells of 1 m, and in small scenes a thirtieth of the larger horizontal extent. The root
-/// is as large as the scene.
+/// Cells that let a third of the anchors fill the scene; 1 m where these would be larger than 1.5
+/// m.
+static double choose_cell(const alp_scene_info *info, double anchors)
+{
+    double volume = 1.0;
+    for (int k = 0; k < 3; k++) {
+        volume *= fmax((double)info->bounds_max[k] - (double)info->bounds_min[k], 1e-3);
+    }
+    const double cell = cbrt(volume / (0.35 * anchors));
+    return cell < 1.5 ? cell : 1.0;
+}
+
+/// The root is as large as the scene.
 static alp_ambience_options make_options(const flight_run *run, const command_line *a)
 {
     const option_value *values = a->values;
@@ -81,8 +94,9 @@ static alp_ambience_options make_options(const flight_run *run, const command_li
     const double z = (double)info.bounds_max[2] - (double)info.bounds_min[2];
     const double extent = fmax(fmax(x, z), 1e-3);
     alp_ambience_options o = alp_ambience_options_default();
-    const double cell =
-        values[OPTION_CELL].choice < 0 ? values[OPTION_CELL].real : fmin(1.0, extent / 30.0);
+    const double cell = values[OPTION_CELL].choice < 0
+                            ? values[OPTION_CELL].real
+                            : choose_cell(&info, (double)values[OPTION_ANCHORS].whole);
     o.depth = 1;
     o.size = 3.0 * cell;
     const bool fitted = values[OPTION_DEPTH].choice >= 0;
@@ -142,6 +156,19 @@ static void keep_known_path(flight_run *run)
     }
 }
 
+static alp_ambience_camera make_camera(const flight_run *run, const flight_camera *c)
+{
+    alp_ambience_camera camera = {.vfov = c->vfov};
+    for (int k = 0; k < 3; k++) {
+        camera.position[k] = c->position[k];
+        camera.velocity[k] = c->velocity[k];
+        camera.forward[k] = c->target[k] - c->position[k];
+    }
+    camera.path = (const double(*)[4])run->known;
+    camera.path_count = run->known != NULL ? run->path.count : 0;
+    return camera;
+}
+
 static alp_result make_volume(const command_line *a, flight_run *run)
 {
     alp_ambience_sampler_options o = alp_ambience_sampler_options_default();
@@ -149,11 +176,16 @@ static alp_result make_volume(const command_line *a, flight_run *run)
     o.direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
     o.seed = a->values[OPTION_SEED].whole;
     run->options = make_options(run, a);
-    const alp_result result =
-        alp_ambience_create(run->session->context, &run->options, &run->ambience);
-    return result == ALP_OK
-               ? alp_ambience_sampler_create(run->ambience, run->session->scene, &o, &run->sampler)
-               : result;
+    alp_result result = alp_ambience_create(run->session->context, &run->options, &run->ambience);
+    if (result == ALP_OK) {
+        result = alp_ambience_sampler_create(run->ambience, run->session->scene, &o, &run->sampler);
+    }
+    if (result == ALP_OK && a->values[OPTION_WARM].choice == 1) {
+        const flight_camera first = flight_at(&run->path, run->start);
+        const alp_ambience_camera camera = make_camera(run, &first);
+        result = alp_ambience_sampler_warm(run->sampler, &camera, run->start, WARM_BOUNCES);
+    }
+    return result;
 }
 
 int flight_run_open(session *s, const command_line *a, const alp_lighting_options *lighting,
@@ -217,19 +249,6 @@ static alp_result move_sun(flight_run *run, double time)
     }
     run->light_step = step;
     return alp_ambience_sampler_set_lighting(run->sampler, &run->lighting);
-}
-
-static alp_ambience_camera make_camera(const flight_run *run, const flight_camera *c)
-{
-    alp_ambience_camera camera = {.vfov = c->vfov};
-    for (int k = 0; k < 3; k++) {
-        camera.position[k] = c->position[k];
-        camera.velocity[k] = c->velocity[k];
-        camera.forward[k] = c->target[k] - c->position[k];
-    }
-    camera.path = (const double(*)[4])run->known;
-    camera.path_count = run->known != NULL ? run->path.count : 0;
-    return camera;
 }
 
 alp_result flight_run_next(flight_run *run, flight_frame *frame)

@@ -94,8 +94,8 @@ static const option rows[] = {
      .maximum = 1e6,
      .unit = "metres",
      .initial = "auto",
-     .help = "Distance of anchors at the finest level. auto: 1 m, or a thirtieth of the larger "
-             "horizontal extent of a small scene."},
+     .help = "Distance of anchors at the finest level. auto: 1 m, or as much as lets a third of "
+             "the anchors fill a small scene."},
     {.id = OPTION_DEPTH,
      .commands = FLIGHT_COMMANDS,
      .group = GROUP_FLIGHT,
@@ -116,7 +116,7 @@ static const option rows[] = {
      .value = "N",
      .minimum = 64,
      .maximum = 1048576,
-     .initial = "4096",
+     .initial = "8192",
      .help = "Anchors that may be held."},
     {.id = OPTION_LIFETIME,
      .commands = FLIGHT_COMMANDS,
@@ -159,6 +159,16 @@ static const option rows[] = {
      .initial = "on",
      .help = "Store the distances to surfaces around each anchor. The look-up then keeps light "
              "from leaking through walls."},
+    {.id = OPTION_WARM,
+     .commands = FLIGHT_COMMANDS,
+     .group = GROUP_FLIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--warm",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "Fill the volume round the first camera before the flight begins, as a loading screen "
+             "would. off: light of the first seconds fades in."},
     {.id = OPTION_LOOKUP,
      .commands = IN_AMBIENCE,
      .group = GROUP_FLIGHT,

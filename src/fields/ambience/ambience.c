@@ -18,7 +18,7 @@ alp_ambience_options alp_ambience_options_default(void)
                                   .above = 1.5,
                                   .lifetime = 6.0,
                                   .fade = 1.0,
-                                  .anchor_limit = 4096,
+                                  .anchor_limit = 8192,
                                   .visibility = true};
 }
 
@@ -107,6 +107,10 @@ static alp_result create(alp_ambience *a)
     alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
     a->rate = 1e6; // until hosts show otherwise
+    for (int k = 0; k < 3; k++) {
+        a->bounds_min[k] = -INFINITY;
+        a->bounds_max[k] = INFINITY;
+    }
     a->time = a->first_time = a->planned_time = NAN;
     ALP_TRY(alpi_graph_create(a->context, o->flat, o->depth, NODES_EACH * o->anchor_limit + chain,
                               &a->graph));

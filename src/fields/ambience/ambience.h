@@ -61,7 +61,8 @@ typedef struct alpi_wish {
 struct alp_ambience {
     alp_context *context;
     alp_ambience_options options;
-    double unit; // metres: the cell of level 0
+    double unit;                         // metres: the cell of level 0
+    double bounds_min[3], bounds_max[3]; // metres: where light is wanted; infinite by default
     alpi_graph graph;
 
     alpi_anchor *anchors;
@@ -113,7 +114,8 @@ void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, 
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
                              const float (*moments)[2]);
-void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor);
+/// @param surface metres to the nearest surface, at least
+void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);
 /// Mean irradiance over all directions, mean of the channels.

@@ -205,11 +205,12 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     return ALP_OK;
 }
 
-void alpi_anchor_solid(alp_ambience *a, uint32_t anchor)
+void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
 {
     alpi_anchor *at = &a->anchors[anchor];
     at->pending = at->stale_light = at->stale_trace = false;
     at->born = a->time;
+    at->mean = surface;
     a->taken++;
     if (at->state != ALPI_ANCHOR_SOLID) {
         at->state = ALPI_ANCHOR_SOLID;

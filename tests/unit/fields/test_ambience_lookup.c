@@ -93,7 +93,7 @@ static void twin_read(const alp_ambience *a, const double p[3], float light[ALPI
             trusted += t * (double)(openness * confidence);
         }
         if (trusted > 0.0) {
-            const double scale = (double)rest * fmin(1.0, sum / 0.1) / sum;
+            const double scale = (double)rest * fmin(1.0, sum / 0.004) / sum;
             for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
                 light[i] += (float)(scale * added[i]);
             }
@@ -296,6 +296,7 @@ TEST(light_does_not_jump)
     o.size = 81.0;
     o.depth = 4;
     o.visibility = false;
+    o.anchor_limit = 2000; // windows that are quick to plan
     for (int i = 0; i < paths; i++) {
         walk_path(&o, (uint64_t)i + 1, &most);
     }
@@ -314,6 +315,7 @@ TEST(the_rule_of_2006_jumps)
     o.size = 81.0;
     o.depth = 4;
     o.visibility = false;
+    o.anchor_limit = 2000;
     o.lookup = ALP_AMBIENCE_CONFORMANCE;
     o.fade = 0.0;
     for (int i = 0; i < 5; i++) {

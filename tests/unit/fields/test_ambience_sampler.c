@@ -134,7 +134,8 @@ static alp_ambience_sampler_options sunny(float azimuth)
 /// sampled under the new sun.
 TEST(kept_hits_are_relit_when_the_sun_moves)
 {
-    const alp_ambience_options o = room_options(27.0, 2);
+    alp_ambience_options o = room_options(27.0, 2);
+    o.anchor_limit = 600;
     const alp_ambience_sampler_options before = sunny(0.5f), after = sunny(2.5f);
     live turned = open_live(test_load(context, "builtin:terrain"), &o, &before);
     live fresh = open_live(test_load(context, "builtin:terrain"), &o, &after);
