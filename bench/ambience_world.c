@@ -48,7 +48,7 @@ void ambience_world_close(ambience_world *world)
     *world = (ambience_world){0};
 }
 
-// --- flights and places --------------------------------------------------------------------------
+// --- flights --------------------------------------------------------------------------
 
 /// Metres of the ground, mean of a square of 24 m.
 static double smooth_ground(const ambience_world *w, double x, double z)
@@ -61,16 +61,21 @@ static double smooth_ground(const ambience_world *w, double x, double z)
     return fmax(sum / 25.0, 0.0);
 }
 
-/// Circles seen from above: the village and the lake, hills and woods, high over all.
+/// Seen from above: a line over the lake and between houses; circles round hills and woods, and
+/// high over all.
 static void flight_place(const ambience_world *w, int flight, double seconds, double place[3])
 {
     static const struct {
-        double x, z, radius, start, above;
-    } flights[WORLD_FLIGHTS] = {
-        {8.0, 0.0, 34.0, 2.0, 4.0}, {0.0, 6.0, 82.0, 0.4, 6.0}, {16.0, -6.0, 58.0, 4.0, 14.0}};
-    const double angle = flights[flight].start + WORLD_SPEED * seconds / flights[flight].radius;
-    place[0] = flights[flight].x + flights[flight].radius * cos(angle);
-    place[2] = flights[flight].z + flights[flight].radius * sin(angle);
+        double x, z; // where a line starts, or the middle of a circle
+        double radius, angle, above;
+    } flights[WORLD_FLIGHTS] = {{-80.0, 56.5, 0.0, -0.4444, 4.0},
+                                {0.0, 6.0, 82.0, 0.4, 6.0},
+                                {16.0, -6.0, 58.0, 4.0, 14.0}};
+    const double radius = flights[flight].radius, flown = WORLD_SPEED * seconds;
+    const double angle = flights[flight].angle + (radius > 0.0 ? flown / radius : 0.0);
+    const double away = radius > 0.0 ? radius : flown;
+    place[0] = flights[flight].x + away * cos(angle);
+    place[2] = flights[flight].z + away * sin(angle);
     place[1] = smooth_ground(w, place[0], place[2]) + flights[flight].above;
 }
 
@@ -130,25 +135,6 @@ static void find_alley(bool at_wall, double place[3])
     place[1] = (double)alpi_terrain_pad(a);
 }
 
-ambience_place ambience_world_place(const ambience_world *world, int place)
-{
-    static const char *const names[WORLD_PLACES] = {"alley", "wall", "wood", "shore"};
-    ambience_place p = {.name = names[place]};
-    if (place < 2) {
-        find_alley(place == 1, p.position);
-    } else if (place == 2) {
-        const vec3 wood = find_wood(world);
-        p.position[0] = (double)wood.x;
-        p.position[2] = (double)wood.z;
-    } else {
-        p.position[0] = (double)ALPI_LAKE_X + 22.0;
-        p.position[2] = (double)ALPI_LAKE_Z + 5.0;
-    }
-    const float x = (float)p.position[0], z = (float)p.position[2];
-    p.position[1] = fmax((double)alpi_terrain_height(world->ground, x, z), 0.0) + 1.7;
-    return p;
-}
-
 // --- light at points -----------------------------------------------------------------------------
 
 static void read_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
@@ -205,6 +191,62 @@ bool ambience_world_sample(const ambience_world *world, const alp_ambience_snaps
         }
     }
     return true;
+}
+
+// --- places --------------------------------------------------------------------------------------
+
+/// Sets the height to that of eyes.
+static void raise_place(const ambience_world *w, double place[3])
+{
+    const double ground = (double)alpi_terrain_height(w->ground, (float)place[0], (float)place[2]);
+    place[1] = fmax(ground, 0.0) + 1.7;
+}
+
+/// Moves a place by 3 m at most, to the freest of 49.
+static void find_clearing(const ambience_world *w, double place[3])
+{
+    enum { SIDE = 7 };
+    alpi_sphere_hits_point points[SIDE * SIDE];
+    float most = 0.0f;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double at[3] = {place[0] + i % SIDE - 3.0, 0.0, place[2] + i / SIDE - 3.0};
+        raise_place(w, at);
+        points[i] = (alpi_sphere_hits_point){.point = {(float)at[0], (float)at[1], (float)at[2]},
+                                             .face = TEST_FACE};
+    }
+    if (!gather(w, NULL, SIDE * SIDE, points)) {
+        return;
+    }
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const alpi_sphere_light *l = &points[i].value;
+        if (l->behind <= 0.0f && l->front_distance > most) {
+            most = l->front_distance;
+            place[0] = (double)points[i].point.x;
+            place[1] = (double)points[i].point.y;
+            place[2] = (double)points[i].point.z;
+        }
+    }
+}
+
+ambience_place ambience_world_place(const ambience_world *world, int place)
+{
+    static const char *const names[WORLD_PLACES] = {"alley", "wall", "wood", "shore"};
+    ambience_place p = {.name = names[place]};
+    if (place < 2) {
+        find_alley(place == 1, p.position);
+    } else if (place == 2) {
+        const vec3 wood = find_wood(world);
+        p.position[0] = (double)wood.x;
+        p.position[2] = (double)wood.z;
+    } else {
+        p.position[0] = (double)ALPI_LAKE_X + 22.0;
+        p.position[2] = (double)ALPI_LAKE_Z + 5.0;
+    }
+    raise_place(world, p.position);
+    if (place == 2) {
+        find_clearing(world, p.position);
+    }
+    return p;
 }
 
 // --- points with their truth ---------------------------------------------------------------------
