@@ -270,6 +270,14 @@ static void draw_in_ball(uint64_t *state, double place[3])
     } while (square > 1.0 || square < 1e-6);
 }
 
+/// Below the terrain's ground, or in the hollow under its lake.
+static bool is_buried(const ambience_world *w, const double place[3])
+{
+    return w->ground != NULL &&
+           place[1] <
+               fmax((double)alpi_terrain_height(w->ground, (float)place[0], (float)place[2]), 0.0);
+}
+
 /// Draws a batch of places, and keeps the free ones.
 static bool add_free(const ambience_world *w, const double centre[3], double reach, uint64_t *state,
                      ambience_points *points, uint32_t wanted)
@@ -289,7 +297,7 @@ static bool add_free(const ambience_world *w, const double centre[3], double rea
         return false;
     }
     for (int i = 0; i < BATCH && points->count < wanted; i++) {
-        if (batch[i].value.behind <= ALPI_FREE_BACKS) {
+        if (batch[i].value.behind <= ALPI_FREE_BACKS && !is_buried(w, places[i])) {
             double normal[3];
             draw_in_ball(state, normal);
             const double length =
