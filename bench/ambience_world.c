@@ -55,7 +55,8 @@ static double smooth_ground(const ambience_world *w, double x, double z)
 {
     double sum = 0.0;
     for (int i = 0; i < 25; i++) {
-        const double dx = 6.0 * (i % 5 - 2), dz = 6.0 * (i / 5 - 2);
+        const int column = i % 5 - 2, row = i / 5 - 2;
+        const double dx = 6.0 * column, dz = 6.0 * row;
         sum += (double)alpi_terrain_height(w->ground, (float)(x + dx), (float)(z + dz));
     }
     return fmax(sum / 25.0, 0.0);
@@ -209,7 +210,8 @@ static void find_clearing(const ambience_world *w, double place[3])
     alpi_sphere_hits_point points[SIDE * SIDE];
     float most = 0.0f;
     for (int i = 0; i < SIDE * SIDE; i++) {
-        double at[3] = {place[0] + i % SIDE - 3.0, 0.0, place[2] + i / SIDE - 3.0};
+        const int column = i % SIDE - SIDE / 2, row = i / SIDE - SIDE / 2;
+        double at[3] = {place[0] + column, 0.0, place[2] + row};
         raise_place(w, at);
         points[i] = (alpi_sphere_hits_point){.point = {(float)at[0], (float)at[1], (float)at[2]},
                                              .face = TEST_FACE};

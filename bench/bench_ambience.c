@@ -296,7 +296,9 @@ static bool measure_upkeep(speed_bench *b, upkeep way, bench_table *table)
         return false;
     }
     for (int i = 0; i < 2 * frames; i++) {
-        t = i == frames ? (upkeep_times){0} : t;
+        if (i == frames) {
+            memset(&t, 0, sizeof t);
+        }
         keep_frame(b, i, way, &t);
     }
     const alp_ambience_info info = alp_ambience_get_info(b->run.ambience);

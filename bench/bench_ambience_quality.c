@@ -14,7 +14,7 @@ enum { PATHS = 2048, QUICK_PATHS = 16, MOMENTS_MOST = 12, CLASSICS = 2 };
 enum { CLASSIC_POINTS = 1024, QUICK_CLASSIC_POINTS = 16, CLASSIC_PATHS = 256 };
 enum { OCTREE_DEPTH = 8, OBJECT_FRAMES = 6 };
 
-/// What is judged.
+/// The models that are judged.
 typedef enum quality_model {
     OURS, // the volume: views of it
     BLIND,
