@@ -166,8 +166,7 @@ static void find_base(alp_ambience *a)
     double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         const alpi_anchor *at = &a->anchors[i];
-        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) ||
-            at->slot == ALPI_NO_SLOT) {
+        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) || at->slot == ALPI_NO_SLOT) {
             continue;
         }
         const double width = (double)alpi_graph_width(at->level);
@@ -261,8 +260,8 @@ alp_ambience_info alp_ambience_get_info(const alp_ambience *a)
     info.open = alpi_requests_count(a);
     uint64_t distances = 0;
     const uint64_t shots = alpi_snapshots_bytes(a, &distances);
-    const uint64_t own = (a->lights.moment_capacity + a->nexts.moment_capacity) *
-                         sizeof *a->lights.moments;
+    const uint64_t own =
+        (a->lights.moment_capacity + a->nexts.moment_capacity) * sizeof *a->lights.moments;
     info.bytes_visibility = distances + own;
     info.bytes_hits = a->hit_bytes;
     info.bytes = sizeof *a + shots + own + a->graph.node_capacity * sizeof *a->graph.nodes +

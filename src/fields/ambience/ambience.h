@@ -23,27 +23,27 @@ typedef enum alpi_anchor_state {
 } alpi_anchor_state;
 
 typedef struct alpi_anchor {
-    int32_t index[3];                  // of the topmost node of its place when it was made
-    uint8_t level;                     // of that node
-    uint8_t state;                     // alpi_anchor_state
-    bool pending;                      // a request for it is open
-    bool leaving;                      // its light has expired and fades out
-    bool stale_light;                  // lighting changed since
-    bool stale_trace;                  // geometry changed since
-    bool coarse;                       // sampled by few rays
-    float height;                      // flat: metres of its place along y
-    uint32_t slot;      // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
-    uint32_t next;      // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
-    float mean;         // E of its light
+    int32_t index[3];      // of the topmost node of its place when it was made
+    uint8_t level;         // of that node
+    uint8_t state;         // alpi_anchor_state
+    bool pending;          // a request for it is open
+    bool leaving;          // its light has expired and fades out
+    bool stale_light;      // lighting changed since
+    bool stale_trace;      // geometry changed since
+    bool coarse;           // sampled by few rays
+    float height;          // flat: metres of its place along y
+    uint32_t slot;         // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
+    uint32_t next;         // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
+    float mean;            // E of its light
     float fade_left;       // seconds until then
-    float confidence;                  // [0, 1]
-    float confidence_rate;             // 1/s, below 0 while leaving
-    float open;                        // 1: no solid, as far as is known; 0: solid
-    float solid_time;                  // seconds since it was found to be a solid
-    float change;                      // relative change of E at its last renewal
-    double born;                       // when its newest light was sampled
-    double wanted;                     // when a window last held it
-    uint32_t version;                  // grows whenever what readers see changes
+    float confidence;      // [0, 1]
+    float confidence_rate; // 1/s, below 0 while leaving
+    float open;            // 1: no solid, as far as is known; 0: solid
+    float solid_time;      // seconds since it was found to be a solid
+    float change;          // relative change of E at its last renewal
+    double born;           // when its newest light was sampled
+    double wanted;         // when a window last held it
+    uint32_t version;      // grows whenever what readers see changes
     uint32_t next_free;
     void *hits;         // the sampler's
     uint32_t hits_face; // rays of them along an edge
@@ -112,7 +112,7 @@ void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, 
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
-                       const float (*moments)[2]);
+                             const float (*moments)[2]);
 void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);

@@ -8,8 +8,8 @@ static const double BESIDE = 2.0, THING = 3.0; // metres
 
 double alpi_ground_height(const alp_scene *scene, const alpi_tracer *tracer, double x, double z)
 {
-    static const double around[PLACES][2] = {{0.0, 0.0},  {1.0, 0.0},  {-1.0, 0.0}, {0.0, 1.0},
-                                             {0.0, -1.0}, {0.7, 0.7},  {-0.7, 0.7}, {0.7, -0.7}};
+    static const double around[PLACES][2] = {{0.0, 0.0},  {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0},
+                                             {0.0, -1.0}, {0.7, 0.7}, {-0.7, 0.7}, {0.7, -0.7}};
     const vec3 down = {0.0f, -1.0f, 0.0f};
     const float top = scene->bounds_max.y + 1.0f;
     alpi_rays rays;

@@ -14,7 +14,8 @@ typedef struct alpi_light_pool {
     alp_context *context;
     bool visibility;
     float (*light)[ALPI_AMBIENCE_FLOATS];
-    float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility: mean distance, of squares
+    float (
+        *moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility: mean distance, of squares
     size_t capacity, moment_capacity;
     uint32_t end, free, count; // free: first of a list; count: in use
 } alpi_light_pool;

@@ -206,8 +206,7 @@ static inline void find_seen(const point_search *p, uint32_t level, const level_
 // --- sums ----------------------------------------------------------------------------------------
 
 static inline void add_light(const point_search *p, const level_anchors *at,
-                             const float weight[CORNERS],
-                             float light[ALPI_AMBIENCE_FLOATS])
+                             const float weight[CORNERS], float light[ALPI_AMBIENCE_FLOATS])
 {
     for (int c = 0; c < CORNERS; c++) {
         if (at->anchor[c] != NULL) {

@@ -223,7 +223,7 @@ static void add_wish(plan *p, uint32_t level, const int32_t index[3], float urge
     alp_ambience *a = p->a;
     if (p->result == ALP_OK) {
         p->result = alpi_grow_tightly(a->context, (void **)&a->wishes, &a->wish_capacity,
-                              (size_t)a->wish_count + 1, sizeof *a->wishes);
+                                      (size_t)a->wish_count + 1, sizeof *a->wishes);
     }
     if (p->result == ALP_OK) {
         alpi_wish *wish = &a->wishes[a->wish_count++];

@@ -86,8 +86,7 @@ static void twin_read(const alp_ambience *a, const double p[3], float light[ALPI
                 openness = has_node ? at->open : 1.0f;
                 confidence = has_node ? confidence : 0.0f;
                 for (int i = 0; i < ALPI_AMBIENCE_FLOATS && confidence > 0.0f; i++) {
-                    added[i] +=
-                        t * (double)(openness * confidence * a->lights.light[at->slot][i]);
+                    added[i] += t * (double)(openness * confidence * a->lights.light[at->slot][i]);
                 }
             }
             sum += t * (double)openness;
