@@ -68,7 +68,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "reference), denoise, bounced (methods of gathering bounced light), light (its rays "
          "against the ray tracer, its bakes by workers and size), sh (projection of cube maps), "
          "probes (look-ups, and rays against the ray tracer), fields (models of light in space "
-         "against the reference) or formats (reading)."},
+         "against the reference), ambience (the live volume along flights) or formats (reading)."},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
                      "bake --maps light bakes light on surfaces"},
     [COMMAND_VIEW] = {"view", "SCENE|OUT", "display a scene", 1, NULL,
