@@ -106,6 +106,7 @@ static alp_result create(alp_ambience *a)
     alpi_lights_open(a->context, o->visibility, &a->lights);
     alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
+    a->plan_age = UINT32_MAX / 2;
     a->rate = 1e6; // until hosts show otherwise
     for (int k = 0; k < 3; k++) {
         a->bounds_min[k] = -INFINITY;
@@ -192,7 +193,7 @@ static void find_rate(alp_ambience *a, double step)
         return;
     }
     const double keep = exp(-step), now = (double)a->taken / step;
-    const bool starved = a->planned && a->wish_count > 0;
+    const bool starved = a->wish_count > 0;
     a->rate = starved ? keep * a->rate + (1.0 - keep) * now : fmax(a->rate * (1.0 + step), now);
     a->rate = fmin(a->rate, 1e6);
     a->taken = 0;
@@ -216,16 +217,21 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
     ALP_TRY(alpi_requests_collect(a));
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
+    ALP_TRY(alpi_ambience_compact(a));
     find_base(a);
     find_rate(a, step);
-    a->planned = false;
+    a->plan_age++;
     return alpi_snapshot_publish(a);
 }
 
 void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double box_min[3],
                              const double box_max[3])
 {
-    for (uint32_t i = 0; ambience != NULL && i < ambience->anchor_end; i++) {
+    if (ambience == NULL) {
+        return;
+    }
+    ambience->plan_age = UINT32_MAX / 2;
+    for (uint32_t i = 0; i < ambience->anchor_end; i++) {
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
         bool inside = true;

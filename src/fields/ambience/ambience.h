@@ -81,12 +81,13 @@ struct alp_ambience {
     alpi_wish *wishes; // sorted, most urgent last
     size_t wish_capacity;
     uint32_t wish_count;
-    bool planned;        // since the last update
-    double planned_time; // of the last plan; NaN before
-    double velocity[3];  // of the camera, smoothed
-    double rate;         // anchors per second that can be sampled, as far as was seen
-    uint32_t taken;      // anchors sampled since the last update
-    uint64_t hit_bytes;  // memory of kept hits
+    uint32_t plan_age;      // updates since the last plan
+    double planned_time;    // of that; NaN before
+    double planned_from[3]; // where the camera was
+    double velocity[3];     // of the camera, smoothed
+    double rate;            // anchors per second that can be sampled, as far as was seen
+    uint32_t taken;         // anchors sampled since the last update
+    uint64_t hit_bytes;     // memory of kept hits
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
 };
 
@@ -118,6 +119,8 @@ alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi
 void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);
+/// Gives memory of anchors that are gone back. @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_ambience_compact(alp_ambience *ambience);
 /// Mean irradiance over all directions, mean of the channels.
 float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
 

@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WAY_POINTS = 5 };
+enum { WAY_POINTS = 5, PLAN_UPDATES = 4 };
+static const double PLAN_TIME = 0.1;   // seconds that a plan serves at most
 static const double AHEAD = 1.0;       // seconds that are predicted
 static const double INERTIA = 0.3;     // seconds that smooth the velocity
 static const double MOST_CELLS = 15.0; // per second: finer cells pass before their light fades in
@@ -432,7 +433,8 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
     plan p = {.a = a, .camera = camera, .mean = alpi_ambience_mean(a->base), .result = ALP_OK};
     int32_t index[3];
     a->wish_count = 0;
-    a->planned = true;
+    a->plan_age = 0;
+    memcpy(a->planned_from, camera->position, sizeof a->planned_from);
     predict_way(&p);
     uint32_t node;
     if (alpi_ambience_index(a, a->graph.depth, p.way[0], index)) { // the root grows to the camera
@@ -454,12 +456,20 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 
 // --- choice --------------------------------------------------------------------------------------
 
+/// A plan serves some updates, while the camera stays in about its place and time moves.
+static bool is_plan_old(const alp_ambience *a, const alp_ambience_camera *camera)
+{
+    const bool warms_up = !(a->time > a->first_time);
+    return a->plan_age >= (warms_up ? 1 : PLAN_UPDATES) || a->time - a->planned_time > PLAN_TIME ||
+           (a->plan_age > 0 && distance(a->planned_from, camera->position) > 0.25 * a->unit);
+}
+
 alp_result alpi_ambience_choose(alp_ambience *a, const alp_ambience_camera *camera,
                                 uint32_t *anchor)
 {
     *anchor = ALPI_NO_ANCHOR;
     ALP_TRY(check_camera(a, camera));
-    if (!a->planned) {
+    if (is_plan_old(a, camera)) {
         ALP_TRY(make_plan(a, camera));
     }
     while (a->wish_count > 0) {
