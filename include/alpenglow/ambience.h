@@ -163,12 +163,16 @@ typedef struct alp_ambience_sampler_options {
     bool bounces;        ///< light that bounces more than once; default true
     bool direct;         ///< light straight from punctual lamps and suns is in it; default false
     bool keep_hits;      ///< hits are kept, to relight them; default true
+    /// UINT32_MAX (default): all light. Else a lamp or sun, whose light alone the volume holds:
+    /// those of the file first, then those of the options, then their sun.
+    uint32_t light;
     uint64_t seed;
 } alp_ambience_sampler_options;
 ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
-/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene);
-///         OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
+/// lamp:
+///         the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);
@@ -200,6 +204,18 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_sample(alp_ambience_sampler *sampl
 /// @return ALP_OK; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_field_create_ambience(alp_ambience *ambience,
                                                            alp_field **field);
+
+/// A field of lamps that a host dims or switches: E = E_all + Σ (strength − 1) E_layer, at least 0.
+/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes
+/// add up exactly where they have the same options, anchors and ages. The field reads the
+/// snapshots of the last updates, and keeps them until it is destroyed.
+/// @param layers    [count]   @param strengths [count] finite, ≥ 0: 0 = off, 1 = as lit
+/// @return ALP_OK; INVALID_ARGUMENT (a volume is NULL, or a strength out of range); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_field_create_ambience_layers(alp_ambience *all,
+                                                                  alp_ambience *const *layers,
+                                                                  const float *strengths,
+                                                                  uint32_t count,
+                                                                  alp_field **field);
 
 ALP_END_DECLS
 

@@ -43,6 +43,7 @@ alp_ambience_sampler_options alp_ambience_sampler_options_default(void)
                                           .face = 16,
                                           .first_face = 8,
                                           .bounces = true,
+                                          .light = ALPI_NONE,
                                           .keep_hits = true};
 }
 
@@ -85,6 +86,12 @@ static alp_result make_lighting(alp_ambience_sampler *s)
 {
     const alp_lighting_options *o = &s->options.lighting;
     ALP_TRY(alpi_lighting_create_quietly(s->scene, o, &s->all));
+    const uint32_t lights = alpi_lighting_light_count(s->all), light = s->options.light;
+    if (light != ALPI_NONE && light >= lights) {
+        return alpi_fail(s->scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: light %u of %u lamps and suns; they are numbered from 0", light,
+                         lights);
+    }
     ALP_TRY(alpi_lighting_create_without_lamps(s->scene, o, &s->space));
     ALP_TRY(alpi_lighting_split_sky(s->all, o, &s->soft, &s->unused[0]));
     return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
@@ -172,22 +179,39 @@ alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
 
 // --- light of the volume on surfaces -------------------------------------------------------------
 
-static void find_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
-                        vec3 *irradiance)
+/// Nine coefficients may give an E below 0. In layers it stays, so that they add up to all light.
+static void find_layer_bounce(const void *user, uint32_t count, const vec3 *points,
+                              const vec3 *normals, vec3 *irradiance)
 {
     const alp_ambience_snapshot *snapshot = user;
     for (uint32_t i = 0; i < count; i++) {
         alpi_sh9 radiance;
         const double place[3] = {(double)points[i].x, (double)points[i].y, (double)points[i].z};
         alp_ambience_coefficients(snapshot, place, &radiance);
-        const vec3 e = alpi_sh9_irradiance(&radiance, normals[i]);
-        irradiance[i] = (vec3){fmaxf(e.x, 0.0f), fmaxf(e.y, 0.0f), fmaxf(e.z, 0.0f)};
+        irradiance[i] = alpi_sh9_irradiance(&radiance, normals[i]);
     }
+}
+
+static void find_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
+                        vec3 *irradiance)
+{
+    find_layer_bounce(user, count, points, normals, irradiance);
+    for (uint32_t i = 0; i < count; i++) {
+        irradiance[i] = vec3_max(irradiance[i], (vec3){0.0f, 0.0f, 0.0f});
+    }
+}
+
+static alpi_bounce_fn *choose_bounce(const alp_ambience_sampler_options *o)
+{
+    return !o->bounces ? NULL : o->light == ALPI_NONE ? find_bounce : find_layer_bounce;
 }
 
 static const alpi_lighting *find_aimed(const alp_ambience_sampler *s)
 {
     const double area = alpi_lighting_emitter_area(s->spots);
+    if (s->options.light != ALPI_NONE) {
+        return NULL;
+    }
     const bool small = area > 0.0 && area < AIMED_AREA * s->scene->area;
     return small || alpi_lighting_sky(s->spots) != NULL ? s->spots : NULL;
 }
@@ -277,7 +301,8 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .tracer = s->tracer,
         .lighting = s->soft,
         .aimed = find_aimed(s),
-        .bounce = s->options.bounces ? find_bounce : NULL,
+        .only_light = s->options.light,
+        .bounce = choose_bounce(&s->options),
         .bounce_user = now,
         .bounce_cell_scale = CELL_SCALE,
         .bounce_cell_least = (float)a->unit,

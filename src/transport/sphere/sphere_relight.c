@@ -366,7 +366,7 @@ void alpi_sphere_hits_light(const alpi_sphere_hits_work *work, uint32_t first, u
     }
     for (uint32_t k = 0; k < count; k++) {
         run->hits_loops->reflect(&met[k], &packets[k]);
-        if (run->how->aimed == NULL) {
+        if (run->how->aimed == NULL && run->how->only_light == ALPI_NONE) {
             add_emission(run, hits[k], &met[k], &packets[k]);
         }
         if (run->sky != NULL) {
