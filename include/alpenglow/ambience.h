@@ -135,6 +135,29 @@ ALP_API void alp_ambience_irradiance(const alp_ambience_snapshot *snapshot, uint
 ALP_API void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot,
                                        const double position[3], alp_sh9 *radiance);
 
+/// Light of an object that is larger than a cell: a look-up at the middle of each side of its box,
+/// with the side's normal. Each side gets the light of the air that it faces, which one look-up at
+/// the middle of the object does not tell apart. alp_sh_ambient_cube_irradiance blends the sides:
+/// E(n) = Σ n_i² C.
+/// @param box_min, box_max metres   @param cube [6][3] out: E of +x −x +y −y +z −z; 0 for a side
+/// that is not finite
+/// Based on: the thesis above, 12.2 (large objects).
+ALP_API void alp_ambience_object_cube(const alp_ambience_snapshot *snapshot,
+                                      const double box_min[3], const double box_max[3],
+                                      float cube[6][3]);
+/// Light at the corners of a patch of terrain. Patches that share a corner, with its normal, get
+/// the same light there.
+/// @param corners    [4][3] metres, at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1)
+/// @param normals    [4][3] unit
+/// @param irradiance [4][3] out: E; 0 at corners that are not finite
+ALP_API void alp_ambience_patch(const alp_ambience_snapshot *snapshot, const double corners[4][3],
+                                const float normals[4][3], float irradiance[4][3]);
+/// E on a patch, bilinear between its corners. On a border that two patches share, both give the
+/// same bits for the same u or v along it.
+/// @param u, v [0, 1]; held to it   @param e [3] out
+ALP_API void alp_ambience_patch_irradiance(const float irradiance[4][3], float u, float v,
+                                           float e[3]);
+
 typedef struct alp_ambience_info {
     uint32_t anchors;          ///< that hold light
     uint32_t solids;           ///< that lie in solids
