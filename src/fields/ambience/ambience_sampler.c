@@ -20,6 +20,8 @@ enum { BATCH = 64, QUARTERS = 4 /* cost of a sample */, QUICK_FACE = 4 };
 static const double AIMED_AREA = 0.1;
 /// A cell in the window of the camera is about this share of its distance.
 static const float CELL_SCALE = 1.0f;
+/// Radii of a sphere within which it changes light: beyond, it covers 1.6 % of the directions.
+static const double OCCLUDER_REACH = 4.0;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
@@ -31,6 +33,7 @@ struct alp_ambience_sampler {
     alpi_lighting *spots; // sources that rays are aimed at
     alpi_lighting *unused[2];
     alpi_lighting *space; // all without lamps
+    alpi_occluders occluders;
     alpi_sphere_hits_point points[BATCH];
     uint32_t anchors[BATCH];
     float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // [BATCH]
@@ -177,6 +180,69 @@ alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
     return ALP_OK;
 }
 
+// --- objects that move ---------------------------------------------------------------------------
+
+/// Anchors near a sphere are relit. Their hits stay: spheres are not among them.
+static void invalidate_near(const alp_ambience_sampler *s, uint32_t sphere)
+{
+    const vec3 centre = s->occluders.centres[sphere];
+    const double reach = OCCLUDER_REACH * (double)s->occluders.radii[sphere];
+    const double low[3] = {(double)centre.x - reach, (double)centre.y - reach,
+                           (double)centre.z - reach};
+    const double high[3] = {(double)centre.x + reach, (double)centre.y + reach,
+                            (double)centre.z + reach};
+    alp_ambience_invalidate(s->ambience, false, low, high);
+}
+
+static alp_result check_occluders(alp_context *context, const double (*spheres)[4], uint32_t count)
+{
+    if (count > ALPI_OCCLUDERS_MOST) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: %u occluders, at most %d are taken; give the largest", count,
+                         ALPI_OCCLUDERS_MOST);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        bool good = (float)spheres[i][3] > 0.0f;
+        for (int k = 0; k < 4; k++) {
+            good = good && fabs(spheres[i][k]) <= (double)ALPI_COORDINATE_LIMIT;
+        }
+        if (!good) {
+            return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                             "ambience: occluder %u is not finite, or has a radius that is not > 0",
+                             i);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
+                                              const double (*spheres)[4], uint32_t count)
+{
+    if (sampler == NULL || (spheres == NULL && count > 0)) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    ALP_TRY(check_occluders(sampler->scene->context, spheres, count));
+    const alpi_occluders old = sampler->occluders;
+    alpi_occluders new = {.count = count};
+    for (uint32_t i = 0; i < count; i++) {
+        new.centres[i] = (vec3){(float)spheres[i][0], (float)spheres[i][1], (float)spheres[i][2]};
+        new.radii[i] = (float)spheres[i][3];
+    }
+    for (uint32_t i = 0; i < ALPI_OCCLUDERS_MOST; i++) {
+        const bool stays = i < old.count && i < count && old.radii[i] == new.radii[i] &&
+                           memcmp(&old.centres[i], &new.centres[i], sizeof new.centres[i]) == 0;
+        sampler->occluders = old;
+        if (!stays && i < old.count) {
+            invalidate_near(sampler, i);
+        }
+        sampler->occluders = new;
+        if (!stays && i < count) {
+            invalidate_near(sampler, i);
+        }
+    }
+    return ALP_OK;
+}
+
 // --- light of the volume on surfaces -------------------------------------------------------------
 
 /// Nine coefficients may give an E below 0. In layers it stays, so that they add up to all light.
@@ -306,6 +372,7 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .bounce_user = now,
         .bounce_cell_scale = CELL_SCALE,
         .bounce_cell_least = (float)a->unit,
+        .occluders = &s->occluders,
         .seed = s->options.seed,
     };
     alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);

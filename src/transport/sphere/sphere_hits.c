@@ -140,6 +140,7 @@ static alpi_sphere_rays rays_of(const alpi_sphere_hits_run *run, uint32_t face)
         .face = face,
         .replicates = 1,
         .aimed = how->aimed,
+        .occluders = how->occluders,
         .seed = how->seed};
 }
 

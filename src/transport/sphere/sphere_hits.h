@@ -69,6 +69,7 @@ typedef struct alpi_sphere_relight {
     // share one call of `bounce`. Near is a quarter of the field's cell: `bounce_cell_scale` times
     // the distance of the hit, and at least `bounce_cell_least` metres. Both 0: none is shared.
     float bounce_cell_scale, bounce_cell_least;
+    const alpi_occluders *occluders; // NULL: none
     uint64_t seed;
 } alpi_sphere_relight;
 
