@@ -135,6 +135,29 @@ ALP_API void alp_ambience_irradiance(const alp_ambience_snapshot *snapshot, uint
 ALP_API void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot,
                                        const double position[3], alp_sh9 *radiance);
 
+/// Light of an object that is larger than a cell: a look-up at the middle of each side of its box,
+/// with the side's normal. Each side gets the light of the air that it faces, which one look-up at
+/// the middle of the object does not tell apart. alp_sh_ambient_cube_irradiance blends the sides:
+/// E(n) = Σ n_i² C.
+/// @param box_min, box_max metres   @param cube [6][3] out: E of +x −x +y −y +z −z; 0 for a side
+/// that is not finite
+/// Based on: the thesis above, 12.2 (large objects).
+ALP_API void alp_ambience_object_cube(const alp_ambience_snapshot *snapshot,
+                                      const double box_min[3], const double box_max[3],
+                                      float cube[6][3]);
+/// Light at the corners of a patch of terrain. Patches that share a corner, with its normal, get
+/// the same light there.
+/// @param corners    [4][3] metres, at (u, v) = (0, 0), (1, 0), (0, 1), (1, 1)
+/// @param normals    [4][3] unit
+/// @param irradiance [4][3] out: E; 0 at corners that are not finite
+ALP_API void alp_ambience_patch(const alp_ambience_snapshot *snapshot, const double corners[4][3],
+                                const float normals[4][3], float irradiance[4][3]);
+/// E on a patch, bilinear between its corners. On a border that two patches share, both give the
+/// same bits for the same u or v along it.
+/// @param u, v [0, 1]; held to it   @param e [3] out
+ALP_API void alp_ambience_patch_irradiance(const float irradiance[4][3], float u, float v,
+                                           float e[3]);
+
 typedef struct alp_ambience_info {
     uint32_t anchors;          ///< that hold light
     uint32_t solids;           ///< that lie in solids
@@ -163,12 +186,16 @@ typedef struct alp_ambience_sampler_options {
     bool bounces;        ///< light that bounces more than once; default true
     bool direct;         ///< light straight from punctual lamps and suns is in it; default false
     bool keep_hits;      ///< hits are kept, to relight them; default true
+    /// UINT32_MAX (default): all light. Else a lamp or sun, whose light alone the volume holds:
+    /// those of the file first, then those of the options, then their sun.
+    uint32_t light;
     uint64_t seed;
 } alp_ambience_sampler_options;
 ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
-/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene);
-///         OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
+/// lamp:
+///         the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);
@@ -177,6 +204,16 @@ ALP_API void alp_ambience_sampler_destroy(alp_ambience_sampler *sampler);
 /// Changes the light: a sun moved, or a lamp was switched. Anchors are relit, old ones first.
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_set_lighting(
     alp_ambience_sampler *sampler, const alp_lighting_options *lighting);
+
+/// Sets black spheres that stop rays and shadow rays of the sampler: objects that move. Where they
+/// change, anchors within four radii are relit; others, and shadows that fall farther, follow with
+/// the next renewal. A ray that starts in a sphere passes it, so anchors in an object have the
+/// light of the air. Distances that anchors keep are those of the scene.
+/// @param spheres [count][4] centre and radius > 0, metres; copied   @param count [0, 16]
+/// @return ALP_OK; INVALID_ARGUMENT (nothing changes)
+ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
+                                                                    const double (*spheres)[4],
+                                                                    uint32_t count);
 
 /// Work of one call.
 typedef struct alp_ambience_work {
@@ -209,6 +246,18 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_warm(alp_ambience_sampler 
 /// @return ALP_OK; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_field_create_ambience(alp_ambience *ambience,
                                                            alp_field **field);
+
+/// A field of lamps that a host dims or switches: E = E_all + Σ (strength − 1) E_layer, at least 0.
+/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes
+/// add up exactly where they have the same options, anchors and ages. The field reads the
+/// snapshots of the last updates, and keeps them until it is destroyed.
+/// @param layers    [count]   @param strengths [count] finite, ≥ 0: 0 = off, 1 = as lit
+/// @return ALP_OK; INVALID_ARGUMENT (a volume is NULL, or a strength out of range); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_field_create_ambience_layers(alp_ambience *all,
+                                                                  alp_ambience *const *layers,
+                                                                  const float *strengths,
+                                                                  uint32_t count,
+                                                                  alp_field **field);
 
 ALP_END_DECLS
 

@@ -19,6 +19,7 @@ static const double PLAN_TIME = 0.1;   // seconds that a plan serves at most
 static const double AHEAD = 1.0;       // seconds that are predicted
 static const double INERTIA = 0.3;     // seconds that smooth the velocity
 static const double MOST_CELLS = 15.0; // per second: finer cells pass before their light fades in
+static const double OUTSIDE = 2.0; // cells round the way that have anchors beyond the bounds too
 enum { RADII = 9 };
 /// Cells of a window's radius, the widest that there is room for: in a volume, and flat.
 static const double RADIUS[2][RADII] = {{24.0, 18.0, 14.0, 11.0, 9.0, 7.0, 5.0, 4.0, 3.0},
@@ -295,7 +296,7 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
     const double away = way_distance(p, place, points) / cell;
     // Parents own the anchors of their middle children.
     if (away > p->radius || (level < a->graph.depth && is_middle(index)) ||
-        !is_within(a, place, cell)) {
+        (away > OUTSIDE && !is_within(a, place, cell))) {
         return;
     }
     const bool top = level + 1 >= a->graph.depth;
@@ -394,14 +395,12 @@ static void scan_window(plan *p, uint32_t level, uint32_t points)
             low[k] = fmin(low[k], p->way[i][k]);
             high[k] = fmax(high[k], p->way[i][k]);
         }
+        const double near_low = low[k] - OUTSIDE * cell, near_high = high[k] + OUTSIDE * cell;
         low[k] -= reach;
         high[k] += reach;
         if (!a->options.flat || k != 1) {
-            low[k] = fmax(low[k], a->bounds_min[k] - cell);
-            high[k] = fmin(high[k], a->bounds_max[k] + cell);
-        }
-        if (low[k] > high[k]) {
-            return;
+            low[k] = fmin(fmax(low[k], a->bounds_min[k] - cell), near_low);
+            high[k] = fmax(fmin(high[k], a->bounds_max[k] + cell), near_high);
         }
     }
     if (!alpi_ambience_index(a, level, low, first) || !alpi_ambience_index(a, level, high, last)) {

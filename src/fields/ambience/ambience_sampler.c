@@ -24,6 +24,8 @@ static const float ON_SURFACE = 1e-3f;
 static const double BESIDE_PLANES[3] = {0.37, 0.43, 0.41};
 /// Hits are near each other within a quarter of this times their distance: about four rays apart.
 static const float CELL_SCALE = 2.0f;
+/// Radii of a sphere within which it changes light: beyond, it covers 1.6 % of the directions.
+static const double OCCLUDER_REACH = 4.0;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
@@ -35,6 +37,7 @@ struct alp_ambience_sampler {
     alpi_lighting *spots; // sources that rays are aimed at
     alpi_lighting *unused[2];
     alpi_lighting *space; // all without lamps
+    alpi_occluders occluders;
     alpi_sphere_hits_point points[BATCH];
     uint32_t anchors[BATCH];
     float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // [BATCH]
@@ -47,6 +50,7 @@ alp_ambience_sampler_options alp_ambience_sampler_options_default(void)
                                           .face = 16,
                                           .first_face = 8,
                                           .bounces = true,
+                                          .light = ALPI_NONE,
                                           .keep_hits = true};
 }
 
@@ -89,6 +93,12 @@ static alp_result make_lighting(alp_ambience_sampler *s)
 {
     const alp_lighting_options *o = &s->options.lighting;
     ALP_TRY(alpi_lighting_create_quietly(s->scene, o, &s->all));
+    const uint32_t lights = alpi_lighting_light_count(s->all), light = s->options.light;
+    if (light != ALPI_NONE && light >= lights) {
+        return alpi_fail(s->scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: light %u of %u lamps and suns; they are numbered from 0", light,
+                         lights);
+    }
     ALP_TRY(alpi_lighting_create_without_lamps(s->scene, o, &s->space));
     ALP_TRY(alpi_lighting_split_sky(s->all, o, &s->soft, &s->unused[0]));
     return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
@@ -187,24 +197,104 @@ alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
     return ALP_OK;
 }
 
+// --- objects that move ---------------------------------------------------------------------------
+
+/// Anchors near a sphere are relit. Their hits stay: spheres are not among them.
+static void invalidate_near(const alp_ambience_sampler *s, uint32_t sphere)
+{
+    const vec3 centre = s->occluders.centres[sphere];
+    const double reach = OCCLUDER_REACH * (double)s->occluders.radii[sphere];
+    const double low[3] = {(double)centre.x - reach, (double)centre.y - reach,
+                           (double)centre.z - reach};
+    const double high[3] = {(double)centre.x + reach, (double)centre.y + reach,
+                            (double)centre.z + reach};
+    alp_ambience_invalidate(s->ambience, false, low, high);
+}
+
+static alp_result check_occluders(alp_context *context, const double (*spheres)[4], uint32_t count)
+{
+    if (count > ALPI_OCCLUDERS_MOST) {
+        return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: %u occluders, at most %d are taken; give the largest", count,
+                         ALPI_OCCLUDERS_MOST);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        bool good = (float)spheres[i][3] > 0.0f;
+        for (int k = 0; k < 4; k++) {
+            good = good && fabs(spheres[i][k]) <= (double)ALPI_COORDINATE_LIMIT;
+        }
+        if (!good) {
+            return alpi_fail(context, ALP_ERROR_INVALID_ARGUMENT,
+                             "ambience: occluder %u is not finite, or has a radius that is not > 0",
+                             i);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
+                                              const double (*spheres)[4], uint32_t count)
+{
+    if (sampler == NULL || (spheres == NULL && count > 0)) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    ALP_TRY(check_occluders(sampler->scene->context, spheres, count));
+    const alpi_occluders old = sampler->occluders;
+    alpi_occluders new = {.count = count};
+    for (uint32_t i = 0; i < count; i++) {
+        new.centres[i] = (vec3){(float)spheres[i][0], (float)spheres[i][1], (float)spheres[i][2]};
+        new.radii[i] = (float)spheres[i][3];
+    }
+    for (uint32_t i = 0; i < ALPI_OCCLUDERS_MOST; i++) {
+        const bool stays = i < old.count && i < count && old.radii[i] == new.radii[i] &&
+                           memcmp(&old.centres[i], &new.centres[i], sizeof new.centres[i]) == 0;
+        sampler->occluders = old;
+        if (!stays && i < old.count) {
+            invalidate_near(sampler, i);
+        }
+        sampler->occluders = new;
+        if (!stays && i < count) {
+            invalidate_near(sampler, i);
+        }
+    }
+    return ALP_OK;
+}
+
 // --- light of the volume on surfaces -------------------------------------------------------------
 
-static void find_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
-                        vec3 *irradiance)
+/// Nine coefficients may give an E below 0. In layers it stays, so that they add up to all light.
+static void find_layer_bounce(const void *user, uint32_t count, const vec3 *points,
+                              const vec3 *normals, vec3 *irradiance)
 {
     const alp_ambience_snapshot *snapshot = user;
     for (uint32_t i = 0; i < count; i++) {
         alpi_sh9 radiance;
         const double place[3] = {(double)points[i].x, (double)points[i].y, (double)points[i].z};
         alp_ambience_coefficients(snapshot, place, &radiance);
-        const vec3 e = alpi_sh9_irradiance(&radiance, normals[i]);
-        irradiance[i] = (vec3){fmaxf(e.x, 0.0f), fmaxf(e.y, 0.0f), fmaxf(e.z, 0.0f)};
+        irradiance[i] = alpi_sh9_irradiance(&radiance, normals[i]);
     }
+}
+
+static void find_bounce(const void *user, uint32_t count, const vec3 *points, const vec3 *normals,
+                        vec3 *irradiance)
+{
+    find_layer_bounce(user, count, points, normals, irradiance);
+    for (uint32_t i = 0; i < count; i++) {
+        irradiance[i] = vec3_max(irradiance[i], (vec3){0.0f, 0.0f, 0.0f});
+    }
+}
+
+static alpi_bounce_fn *choose_bounce(const alp_ambience_sampler_options *o)
+{
+    return !o->bounces ? NULL : o->light == ALPI_NONE ? find_bounce : find_layer_bounce;
 }
 
 static const alpi_lighting *find_aimed(const alp_ambience_sampler *s)
 {
     const double area = alpi_lighting_emitter_area(s->spots);
+    if (s->options.light != ALPI_NONE) {
+        return NULL;
+    }
     const bool small = area > 0.0 && area < AIMED_AREA * s->scene->area;
     return small || alpi_lighting_sky(s->spots) != NULL ? s->spots : NULL;
 }
@@ -297,10 +387,12 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .tracer = s->tracer,
         .lighting = s->soft,
         .aimed = find_aimed(s),
-        .bounce = s->options.bounces ? find_bounce : NULL,
+        .only_light = s->options.light,
+        .bounce = choose_bounce(&s->options),
         .bounce_user = now,
         .bounce_cell_scale = CELL_SCALE,
         .bounce_cell_least = (float)a->unit,
+        .occluders = &s->occluders,
         .seed = s->options.seed,
     };
     alp_result result = alpi_sphere_hits_gather(&how, s->points, count, NULL);

@@ -44,6 +44,7 @@ static bool draw(const alpi_sphere_aim *aim, uint32_t sample, alpi_light_sample 
 
 static void trace(const alpi_sphere_aim *aim, alpi_rays *rays, uint32_t active, vec3 *given)
 {
+    active = alpi_occluders_open(aim->rays->occluders, rays, rays->maximum, active);
     const alpi_gather_scene *from = &aim->rays->from;
     alpi_trace_filter filter = from->filter;
     filter.panes = alpi_tracer_has_panes(from->tracer);

@@ -60,12 +60,16 @@ typedef struct alpi_sphere_relight {
     // NULL, or sources that extra rays are aimed at (sphere_aimed.h): then rays that meet emission
     // by chance do not count it. Of a sky whose spots are aimed at, `lighting` has the soft part.
     const alpi_lighting *aimed;
+    // A lamp or sun of `lighting`, or ALPI_NONE: all light. Of a lamp alone there is no sky and no
+    // emission; `aimed` is NULL, and `bounce` gives the light of that lamp.
+    uint32_t only_light;
     alpi_bounce_fn *bounce; // NULL: 0
     const void *bounce_user;
     // Hits of eight neighbouring rays that are near each other, and whose normals are within 25°,
     // share one call of `bounce`. Near is a quarter of the field's cell: `bounce_cell_scale` times
     // the distance of the hit, and at least `bounce_cell_least` metres. Both 0: none is shared.
     float bounce_cell_scale, bounce_cell_least;
+    const alpi_occluders *occluders; // NULL: none
     uint64_t seed;
 } alpi_sphere_relight;
 

@@ -31,7 +31,8 @@ static void flush(const alpi_sphere_rays *r, lamp_packet *p, alpi_sh9 *sum)
 {
     alpi_trace_filter filter = r->from.filter;
     filter.panes = alpi_tracer_has_panes(r->from.tracer);
-    const uint32_t active = (1u << p->count) - 1u;
+    const uint32_t active =
+        alpi_occluders_open(r->occluders, &p->rays, p->rays.maximum, (1u << p->count) - 1u);
     vec3 left[ALPI_PACKET];
     uint32_t open = 0;
     if (p->count == 0) {
@@ -40,7 +41,7 @@ static void flush(const alpi_sphere_rays *r, lamp_packet *p, alpi_sh9 *sum)
     alpi_trace_occluded(r->from.tracer, &p->rays, 1, active, filter, ALPI_RAYS_NEAR);
     for (uint32_t i = 0; i < ALPI_PACKET; i++) {
         left[i] = (vec3){1.0f, 1.0f, 1.0f};
-        open |= i < p->count && p->rays.maximum[i] >= 0.0f ? 1u << i : 0u;
+        open |= (active >> i & 1u) != 0 && p->rays.maximum[i] >= 0.0f ? 1u << i : 0u;
     }
     if (filter.panes && open != 0) {
         alpi_panes_dim(r->from.scene, r->from.tracer, filter, open, &p->rays, left);

@@ -14,6 +14,7 @@
 
 #include "sh/sh9.h"
 #include "transport/gather/gather.h"
+#include "transport/sphere/sphere_occluders.h"
 
 enum {
     ALPI_SPHERE_REPLICATES_LEAST = 2,
@@ -44,6 +45,8 @@ typedef struct alpi_sphere_rays {
     // NULL, or sources that rays are aimed at (sphere_aimed.h): without punctual lights and suns.
     // Then `from` counts no emitters.
     const alpi_lighting *aimed;
+    // NULL, or spheres that stop rays at sources and lamps. Rays through pixels pass them.
+    const alpi_occluders *occluders;
     float reach; // metres: larger distances count as this in moments
     uint64_t seed;
 } alpi_sphere_rays;

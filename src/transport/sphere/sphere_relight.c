@@ -106,7 +106,8 @@ static void add_distant(const alpi_sphere_hits_run *run, const alpi_sphere_lamp 
     alpi_rays rays;
     float cosines[ALPI_PACKET];
     const vec3 each = vec3_scale(lamp->light_each, scale);
-    const uint32_t active = run->hits_loops->aim(m, lamp, &rays, cosines) & lit;
+    const uint32_t facing = run->hits_loops->aim(m, lamp, &rays, cosines) & lit;
+    const uint32_t active = alpi_occluders_open(run->how->occluders, &rays, rays.maximum, facing);
     if (active == 0) {
         return;
     }
@@ -147,6 +148,7 @@ static void add_punctual(const alpi_sphere_hits_run *run, const alpi_sphere_lamp
             active |= 1u << i;
         }
     }
+    active = alpi_occluders_open(run->how->occluders, &rays, rays.maximum, active);
     if (active != 0) {
         const uint32_t open = trace_shadows(run, active, &rays);
         add_open(run, open, &rays, light, m);
@@ -307,11 +309,12 @@ static void find_weights(const alpi_sphere_met *m, int i, float weights[2])
 }
 
 static void add_emission(const alpi_sphere_hits_run *run, const alpi_sphere_hit *hits,
-                         const alpi_sphere_met *m, alpi_sphere_packet *p)
+                         const alpi_sphere_met *m, uint32_t open, alpi_sphere_packet *p)
 {
     for (int i = 0; i < ALPI_PACKET; i++) {
         float weights[2];
-        if (hits[i].triangle == ALPI_NONE || (hits[i].side & ALPI_HIT_EMITS) == 0) {
+        if ((open >> i & 1u) == 0 || hits[i].triangle == ALPI_NONE ||
+            (hits[i].side & ALPI_HIT_EMITS) == 0) {
             continue;
         }
         find_weights(m, i, weights);
@@ -324,13 +327,14 @@ static void add_emission(const alpi_sphere_hits_run *run, const alpi_sphere_hit 
     }
 }
 
-static void add_sky(const alpi_sky *sky, const alpi_sphere_hit *hits, alpi_sphere_packet *p)
+static void add_sky(const alpi_sky *sky, const alpi_sphere_hit *hits, uint32_t open,
+                    alpi_sphere_packet *p)
 {
     vec3 directions[ALPI_PACKET], radiances[ALPI_PACKET];
     int lanes[ALPI_PACKET];
     uint32_t count = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        if (hits[i].triangle == ALPI_NONE) {
+        if ((open >> i & 1u) != 0 && hits[i].triangle == ALPI_NONE) {
             directions[count] =
                 (vec3){p->rays.direction_x[i], p->rays.direction_y[i], p->rays.direction_z[i]};
             lanes[count++] = i;
@@ -351,14 +355,29 @@ static void add_sky(const alpi_sky *sky, const alpi_sphere_hit *hits, alpi_spher
     }
 }
 
+/// Rays of a packet that no sphere stops before what they met.
+static uint32_t find_open(const alpi_occluders *occluders, const alpi_sphere_hit *hits,
+                          const alpi_sphere_packet *p)
+{
+    float reach[ALPI_PACKET];
+    if (occluders == NULL || occluders->count == 0) {
+        return 0xffu;
+    }
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        reach[i] = hits[i].distance;
+    }
+    return alpi_occluders_open(occluders, &p->rays, reach, 0xffu);
+}
+
 void alpi_sphere_hits_light(const alpi_sphere_hits_work *work, uint32_t first, uint32_t count,
                             const alpi_sphere_hit (*hits)[ALPI_PACKET], alpi_sphere_packet *packets)
 {
     const alpi_sphere_hits_run *run = work->run;
     alpi_sphere_met met[BATCH];
-    uint32_t lit[BATCH];
+    uint32_t lit[BATCH], open[BATCH];
     for (uint32_t k = 0; k < count; k++) {
-        lit[k] = find_surfaces(work, first + k, hits[k], &packets[k], &met[k]);
+        open[k] = find_open(run->how->occluders, hits[k], &packets[k]);
+        lit[k] = find_surfaces(work, first + k, hits[k], &packets[k], &met[k]) & open[k];
         add_lamps(run, lit[k], &met[k]);
     }
     if (run->how->bounce != NULL) {
@@ -366,11 +385,11 @@ void alpi_sphere_hits_light(const alpi_sphere_hits_work *work, uint32_t first, u
     }
     for (uint32_t k = 0; k < count; k++) {
         run->hits_loops->reflect(&met[k], &packets[k]);
-        if (run->how->aimed == NULL) {
-            add_emission(run, hits[k], &met[k], &packets[k]);
+        if (run->how->aimed == NULL && run->how->only_light == ALPI_NONE) {
+            add_emission(run, hits[k], &met[k], open[k], &packets[k]);
         }
         if (run->sky != NULL) {
-            add_sky(run->sky, hits[k], &packets[k]);
+            add_sky(run->sky, hits[k], open[k], &packets[k]);
         }
     }
 }
