@@ -138,14 +138,18 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     return find_difference(now, before);
 }
 
-/// Seconds that new light takes. Where a fade is under way, it goes on at its speed at least: or
-/// renewals of still light would never end it.
+/// Seconds that new light takes: longer for large changes, unless the lighting changed. Where a
+/// fade is under way, it goes on at its speed at least: or renewals of still light would never end
+/// it.
 static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
 {
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
     const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
     if (is_first(a)) {
         return 0.0f;
+    }
+    if (at->stale_light) { // lamps or the sun moved
+        return least;
     }
     if (at->next == ALPI_NO_SLOT) {
         return fade;

@@ -199,7 +199,7 @@ TEST(a_lamp_leaves_no_trail)
     read_live(&l, p, (vec3){0.0f, 1.0f, 0.0f}, lit);
     assert_true(lit[0] > 0.1f);
     ASSERT_OK(context, alp_ambience_sampler_set_lighting(l.sampler, &dim));
-    for (int i = 0; i < 26; i++) { // the longest fade is a lifetime
+    for (int i = 0; i < 7; i++) { // a step until it is relit, four of the fade
         (void)step_live(&l, 0.05, 100);
     }
     read_live(&l, p, (vec3){0.0f, 1.0f, 0.0f}, dark);
