@@ -109,10 +109,10 @@ static alp_result create(alp_ambience *a)
     a->plan_age = UINT32_MAX / 2;
     a->rate = 1e6; // until hosts show otherwise
     for (int k = 0; k < 3; k++) {
-        a->bounds_min[k] = -INFINITY;
-        a->bounds_max[k] = INFINITY;
+        a->bounds_min[k] = -HUGE_VAL;
+        a->bounds_max[k] = HUGE_VAL;
     }
-    a->time = a->first_time = a->planned_time = NAN;
+    a->time = a->first_time = a->planned_time = (double)NAN;
     ALP_TRY(alpi_graph_create(a->context, o->flat, o->depth, NODES_EACH * o->anchor_limit + chain,
                               &a->graph));
     ALP_TRY(alpi_requests_create(a));

@@ -14,7 +14,7 @@ double alpi_ground_height(const alp_scene *scene, const alpi_tracer *tracer, dou
     const float top = scene->bounds_max.y + 1.0f;
     alpi_rays rays;
     alpi_hits hits;
-    double heights[PLACES], lowest = INFINITY;
+    double heights[PLACES], lowest = HUGE_VAL;
     alpi_rays_clear(&rays);
     for (int i = 0; i < PLACES; i++) {
         const vec3 from = {(float)(x + BESIDE * around[i][0]), top,

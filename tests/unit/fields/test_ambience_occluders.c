@@ -28,8 +28,8 @@ static air open_air(void)
     ASSERT_OK(context, alp_ambience_sampler_create(v.ambience, v.scene, &o, &v.sampler));
     for (int k = 0; k < 3; k++) { // anchors at whole metres, far beyond the specks
         v.ambience->options.centre[k] = 0.0;
-        v.ambience->bounds_min[k] = -INFINITY;
-        v.ambience->bounds_max[k] = INFINITY;
+        v.ambience->bounds_min[k] = -HUGE_VAL;
+        v.ambience->bounds_max[k] = HUGE_VAL;
     }
     return v;
 }
@@ -118,9 +118,9 @@ TEST(spheres_that_are_none_are_refused)
 {
     const double bad[5][4] = {{0.0, 0.0, 0.0, 0.0},
                               {0.0, 0.0, 0.0, -1.0},
-                              {NAN, 0.0, 0.0, 1.0},
+                              {(double)NAN, 0.0, 0.0, 1.0},
                               {0.0, 1e300, 0.0, 1.0},
-                              {0.0, 0.0, 0.0, INFINITY}};
+                              {0.0, 0.0, 0.0, HUGE_VAL}};
     const double many[17][4] = {{0.0, 0.0, 0.0, 1.0}};
     air v = open_air();
     for (int i = 0; i < 5; i++) {
