@@ -246,8 +246,9 @@ alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
         new.radii[i] = (float)spheres[i][3];
     }
     for (uint32_t i = 0; i < ALPI_OCCLUDERS_MOST; i++) {
+        const vec3 moved = vec3_sub(old.centres[i], new.centres[i]);
         const bool stays = i < old.count && i < count && old.radii[i] == new.radii[i] &&
-                           memcmp(&old.centres[i], &new.centres[i], sizeof new.centres[i]) == 0;
+                           !(vec3_dot(moved, moved) > 0.0f);
         sampler->occluders = old;
         if (!stays && i < old.count) {
             invalidate_near(sampler, i);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # ambience: a line for each second, as CSV, table and JSON; the same numbers by any number of threads
 printf 't,px,py,pz,tx,ty,tz,vfov\n0,.1,.45,.4,.28,.27,0,60\n# then\n2.5;.45;.45;.4;.28;.27;0;50\n' >flight.csv
-fly="alpenglow ambience builtin:cornell --path flight.csv --fps 10 --budget 20 --anchors 300"
+fly="alpenglow ambience builtin:cornell --path flight.csv --fps 10 --budget 20 --anchors 300 --progress off"
 counts() { cut -d , -f 1-4; }
 $fly --reference-samples 16 --csv seconds.csv --json seconds.json -q
 head -n 1 seconds.csv

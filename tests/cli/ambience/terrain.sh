@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # ambience: the terrain's own flight, and a day that passes
-fly="alpenglow ambience builtin:terrain,triangles=5000 --anchors 400 --sky clear --sun 40,50,80000 --fps 4 --budget 20"
+fly="alpenglow ambience builtin:terrain,triangles=5000 --anchors 400 --progress off --sky clear --sun 40,50,80000 --fps 4 --budget 20"
 seconds() { $fly --errors off --csv - "$@" | cut -d , -f 1-4; }
 seconds | wc -l
 seconds --time 3 >own.csv

@@ -292,7 +292,7 @@ TEST(light_does_not_jump)
     alp_ambience_options o = alp_ambience_options_default();
     walk most = {0.0, 0.0};
     const char *count = getenv("AMBIENCE_PATHS");
-    const int paths = count != NULL ? atoi(count) : test_is_quick() ? 10 : 200;
+    const int paths = count != NULL ? (int)strtol(count, NULL, 10) : test_is_quick() ? 10 : 200;
     o.size = 81.0;
     o.depth = 4;
     o.visibility = false;
