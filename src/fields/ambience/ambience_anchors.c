@@ -133,7 +133,7 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     } else {
         double place[3];
         alpi_anchor_place(a, at, place);
-        alpi_ambience_read(published(a), place, before);
+        alpi_ambience_read(published(a), place, NULL, before);
     }
     return find_difference(now, before);
 }

@@ -37,7 +37,7 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
         alpi_sh9 sum = {0};
         for (uint32_t k = 0; k < f->count; k++) {
             float light[ALPI_AMBIENCE_FLOATS];
-            alpi_ambience_read(f->snapshots[k], place, light);
+            alpi_ambience_read(f->snapshots[k], place, normals[i], light);
             for (int c = 0; c < ALPI_AMBIENCE_FLOATS; c++) {
                 sum.c[c / 3][c % 3] += f->factors[k] * light[c];
             }

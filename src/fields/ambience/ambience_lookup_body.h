@@ -12,6 +12,8 @@ enum { CORNERS = 8, SIDE = 8 };
 _Static_assert((int)ALPI_PACKET == (int)CORNERS, "a lane for each corner");
 /// Below this sum of weights, a level gives way to the next.
 static const float SCARCE = 0.004f;
+/// Cells above a surface from where anchors are seen.
+static const float LIFT = 0.25f;
 /// A rest of confidence below this is left out.
 static const float NOTHING = 1e-6f;
 
@@ -26,6 +28,7 @@ typedef struct point_search {
     const alp_ambience_snapshot *s;
     double unit[3]; // the point in units; flat: 0 along y
     float height;   // flat: metres of the point along y
+    vec3 lift;      // from the point to where anchors are seen from, in cells
     level_lattice levels[ALPI_GRAPH_LEVELS];
 } point_search;
 
@@ -190,6 +193,7 @@ static inline void find_seen(const point_search *p, uint32_t level, const level_
         if (s->flat) {
             way.y = p->height - a->height;
         }
+        way = vec3_mad(way, cell, p->lift);
         const float distance = sqrtf(vec3_dot(way, way));
         if (distance <= a->clear) {
             continue;
@@ -281,13 +285,15 @@ static inline float add_octants(const point_search *p, uint32_t level,
 // --- all -----------------------------------------------------------------------------------------
 
 bool ALPI_VARIANT(alpi_ambience_lookup)(const alp_ambience_snapshot *snapshot,
-                                        const double position[3], float light[ALPI_AMBIENCE_FLOATS])
+                                        const double position[3], const float *normal,
+                                        float light[ALPI_AMBIENCE_FLOATS])
 {
     point_search p;
     float sums[ALPI_AMBIENCE_FLOATS] = {0.0f}, rest = 1.0f;
     const bool ours = snapshot->lookup == ALP_AMBIENCE_OURS;
     p.s = snapshot;
     p.height = (float)position[1];
+    p.lift = normal != NULL ? vec3_scale(vec3_load(normal), LIFT) : (vec3){0.0f, 0.0f, 0.0f};
     memset(light, 0, ALPI_AMBIENCE_FLOATS * sizeof *light);
     for (int k = 0; k < 3; k++) {
         p.unit[k] = (position[k] - snapshot->centre[k]) * snapshot->inverse_unit;

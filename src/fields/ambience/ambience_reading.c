@@ -6,19 +6,33 @@
 #include <string.h>
 
 bool alpi_ambience_read(const alp_ambience_snapshot *snapshot, const double position[3],
-                        float light[ALPI_AMBIENCE_FLOATS])
+                        const float *normal, float light[ALPI_AMBIENCE_FLOATS])
 {
-    return snapshot->read(snapshot, position, light);
+    return snapshot->read(snapshot, position, normal, light);
+}
+
+vec3 alpi_ambience_irradiance_at(const alp_ambience_snapshot *snapshot, const double position[3],
+                                 vec3 normal)
+{
+    const float n[3] = {normal.x, normal.y, normal.z};
+    float light[ALPI_AMBIENCE_FLOATS];
+    alpi_sh9 radiance;
+    if (!vec3_is_finite(normal) || !alpi_ambience_read(snapshot, position, n, light)) {
+        return (vec3){0.0f, 0.0f, 0.0f};
+    }
+    memcpy(radiance.c, light, sizeof light);
+    const vec3 e = alpi_sh9_irradiance(&radiance, normal);
+    return (vec3){fmaxf(e.x, 0.0f), fmaxf(e.y, 0.0f), fmaxf(e.z, 0.0f)};
 }
 
 void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot, const double position[3],
                                alp_sh9 *radiance)
 {
+    float light[ALPI_AMBIENCE_FLOATS];
     if (snapshot == NULL || radiance == NULL) {
         return;
     }
-    float light[ALPI_AMBIENCE_FLOATS];
-    alpi_ambience_read(snapshot, position, light);
+    alpi_ambience_read(snapshot, position, NULL, light);
     memcpy(radiance->c, light, sizeof light);
 }
 
@@ -27,13 +41,7 @@ void alp_ambience_irradiance(const alp_ambience_snapshot *snapshot, uint32_t cou
                              float (*irradiance)[3])
 {
     for (uint32_t i = 0; snapshot != NULL && i < count; i++) {
-        alpi_sh9 radiance;
-        const vec3 normal = vec3_load(normals[i]);
-        alp_ambience_coefficients(snapshot, positions[i], &radiance);
-        const vec3 e = vec3_is_finite(normal) ? alpi_sh9_irradiance(&radiance, normal)
-                                              : (vec3){0.0f, 0.0f, 0.0f};
-        irradiance[i][0] = fmaxf(e.x, 0.0f);
-        irradiance[i][1] = fmaxf(e.y, 0.0f);
-        irradiance[i][2] = fmaxf(e.z, 0.0f);
+        vec3_store(irradiance[i],
+                   alpi_ambience_irradiance_at(snapshot, positions[i], vec3_load(normals[i])));
     }
 }

@@ -269,10 +269,8 @@ static void find_layer_bounce(const void *user, uint32_t count, const vec3 *poin
 {
     const alp_ambience_snapshot *snapshot = user;
     for (uint32_t i = 0; i < count; i++) {
-        alpi_sh9 radiance;
         const double place[3] = {(double)points[i].x, (double)points[i].y, (double)points[i].z};
-        alp_ambience_coefficients(snapshot, place, &radiance);
-        irradiance[i] = alpi_sh9_irradiance(&radiance, normals[i]);
+        irradiance[i] = alpi_ambience_irradiance_at(snapshot, place, normals[i]);
     }
 }
 

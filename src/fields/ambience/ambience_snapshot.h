@@ -42,7 +42,8 @@ typedef struct alpi_read_node {
 } alpi_read_node;
 
 typedef bool alpi_ambience_lookup_fn(const alp_ambience_snapshot *snapshot,
-                                     const double position[3], float light[ALPI_AMBIENCE_FLOATS]);
+                                     const double position[3], const float *normal,
+                                     float light[ALPI_AMBIENCE_FLOATS]);
 alpi_ambience_lookup_fn alpi_ambience_lookup_baseline, alpi_ambience_lookup_v3;
 
 struct alp_ambience_snapshot {
@@ -77,8 +78,13 @@ void alpi_snapshots_destroy(alp_ambience *ambience);
 uint64_t alpi_snapshots_bytes(const alp_ambience *ambience, uint64_t *moments);
 
 /// Radiance coefficients at a point.
+/// @param normal NULL, or [3] unit, finite: anchors are seen or not from a quarter of their cell
+///               above the surface there, so that those behind it do not count
 /// @return false, with black: not finite, or no light at all
 bool alpi_ambience_read(const alp_ambience_snapshot *snapshot, const double position[3],
-                        float light[ALPI_AMBIENCE_FLOATS]);
+                        const float *normal, float light[ALPI_AMBIENCE_FLOATS]);
+/// E [W·m⁻²] ≥ 0 at a point with a normal; black where either is not finite.
+vec3 alpi_ambience_irradiance_at(const alp_ambience_snapshot *snapshot, const double position[3],
+                                 vec3 normal);
 
 #endif
