@@ -25,7 +25,8 @@ static const double OCCLUDER_REACH = 4.0;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
-    const alp_scene *scene;
+    const alp_scene *scene; // that rays meet
+    alp_scene *simple;      // NULL, or the same: the sampler's own
     alp_ambience_sampler_options options;
     alpi_tracer *tracer;
     alpi_lighting *all;   // whose lamps and suns count
@@ -73,6 +74,10 @@ static alp_result check_options(const alp_ambience_sampler_options *o, const alp
                              faces[i], ALPI_HITS_FACE_MOST);
         }
     }
+    if (!(o->detail >= 0.0f) || !isfinite(o->detail)) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: detail of %g m, need a finite one ≥ 0", (double)o->detail);
+    }
     return alpi_lighting_refuse_darkness(scene, &o->lighting);
 }
 
@@ -108,6 +113,10 @@ static double find_height(void *user, double x, double z)
 
 static alp_result start(alp_ambience_sampler *s)
 {
+    if (s->options.detail > 0.0f) {
+        ALP_TRY(alp_scene_simplify(s->scene, s->options.detail, &s->simple));
+        s->scene = s->simple;
+    }
     ALP_TRY(alpi_tracer_for_scene(s->scene, NULL, NULL, &s->tracer, NULL));
     s->moments = alpi_allocate(s->scene->context, BATCH, sizeof *s->moments);
     return s->moments == NULL ? ALP_ERROR_OUT_OF_MEMORY : make_lighting(s);
@@ -154,9 +163,11 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
         s->ambience->options.height = NULL;
         s->ambience->options.height_user = NULL;
     }
+    alp_context *context = s->scene->context;
     clear_lighting(s);
-    alpi_release(s->scene->context, s->moments);
-    alpi_release(s->scene->context, s);
+    alpi_release(context, s->moments);
+    alp_scene_destroy(s->simple);
+    alpi_release(context, s);
 }
 
 alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
