@@ -206,8 +206,8 @@ typedef struct alp_ambience_sampler_options {
 ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
-/// lamp:
-///         the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+///         lamp: the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer
+///         fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);

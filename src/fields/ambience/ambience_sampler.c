@@ -226,6 +226,12 @@ static alp_result check_occluders(alp_context *context, const double (*spheres)[
     return ALP_OK;
 }
 
+static bool is_same_sphere(const alpi_occluders *a, const alpi_occluders *b, uint32_t i)
+{
+    const vec3 from = a->centres[i], to = b->centres[i];
+    return from.x == to.x && from.y == to.y && from.z == to.z && a->radii[i] == b->radii[i];
+}
+
 alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
                                               const double (*spheres)[4], uint32_t count)
 {
@@ -240,8 +246,7 @@ alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
         new.radii[i] = (float)spheres[i][3];
     }
     for (uint32_t i = 0; i < ALPI_OCCLUDERS_MOST; i++) {
-        const bool stays = i < old.count && i < count && old.radii[i] == new.radii[i] &&
-                           memcmp(&old.centres[i], &new.centres[i], sizeof new.centres[i]) == 0;
+        const bool stays = i < old.count && i < count && is_same_sphere(&old, &new, i);
         sampler->occluders = old;
         if (!stays && i < old.count) {
             invalidate_near(sampler, i);
