@@ -91,7 +91,8 @@ THIRD_PARTY = {
     r"zlib\.h": ["src/formats"],
     r"libxml/.*\.h": ["src/formats"],
     r"zstd\.h": ["src/formats"],
-    r"meshoptimizer\.h": ["src/formats"],
+    # It decodes files, and simplifies scenes for samplers, which may not include formats.
+    r"meshoptimizer\.h": ["src/formats", "src/scene/simplify.c"],
     r"webp/.*": ["src/formats"],
     # The one file of C++, and what that language brings.
     r"draco/.*|cstdio|exception|memory|new": ["src/formats/gltf/draco_mesh.cpp"],

@@ -189,13 +189,25 @@ typedef struct alp_ambience_sampler_options {
     /// UINT32_MAX (default): all light. Else a lamp or sun, whose light alone the volume holds:
     /// those of the file first, then those of the options, then their sun.
     uint32_t light;
+    /// Metres: rays meet a copy of the scene that alp_scene_simplify makes with this error. 0
+    /// (default): the scene itself. A pixel of a face of 16 × 16 is 1 m wide at 10 m. It pays
+    /// where triangles are many, and errs most in narrow rooms. Measured at 200 random free points
+    /// in sun and sky, against the scene itself:
+    ///
+    ///     scene                        detail   triangles           samples/s   mean |E′ − E|/E
+    ///     terrain                      1 m       59,896 →  8,919    × 1.20       2.1 %
+    ///     terrain                      .25 m     59,896 → 18,821    × 1.10        .6 %
+    ///     terrain,triangles=1000000    1 m      999,402 → 33,382    × 1.82       2.9 %
+    ///     zdm2 (game level)            1 m       57,638 →  7,601    × 1.05      10 %
+    ///     zdm2                         .25 m     57,638 → 10,526    × 1.03       3.9 %
+    float detail;
     uint64_t seed;
 } alp_ambience_sampler_options;
 ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
-/// lamp:
-///         the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+///         lamp: the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer
+///         fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);

@@ -55,6 +55,16 @@ ALP_API ALP_NODISCARD alp_result alp_scene_create_from_meshes(alp_context *conte
                                                               uint32_t mesh_count,
                                                               alp_scene **scene);
 
+/// Makes a scene with fewer triangles, for light that is sampled coarsely. Each surface is
+/// simplified alone by meshoptimizer. Materials, lights, cameras and images are copied. Triangles
+/// have other numbers; surfaces keep theirs. Borders of surfaces that touch others stay. A surface
+/// of many small parts, such as leaves, keeps 80 % of its area, with less error or as it is.
+/// @param error  metres that surfaces move at most, by the simplifier's own measure; > 0
+/// @param simple out, which the caller destroys; NULL on failure
+/// @return ALP_OK; INVALID_ARGUMENT; OUT_OF_MEMORY; CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_scene_simplify(const alp_scene *scene, float error,
+                                                    alp_scene **simple);
+
 ALP_API void alp_scene_destroy(alp_scene *scene); ///< NULL does nothing
 
 /// Light that a metal reflects. Every surface is diffuse here, and a metal has no diffuse colour.

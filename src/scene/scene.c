@@ -268,7 +268,7 @@ static void warn_of_precision(const alp_scene *scene)
     }
 }
 
-alp_result alpi_scene_finish(alp_scene *scene)
+alp_result alpi_scene_finish_quietly(alp_scene *scene)
 {
     ALP_TRY(check_indices(scene));
     if (scene->triangle_usable == NULL) {
@@ -277,9 +277,15 @@ alp_result alpi_scene_finish(alp_scene *scene)
     mark_triangles(scene);
     repair_normals(scene); // asks which triangles are usable
     clamp_materials(scene);
+    return alpi_sides_create(scene);
+}
+
+alp_result alpi_scene_finish(alp_scene *scene)
+{
+    ALP_TRY(alpi_scene_finish_quietly(scene));
     warn_of_metal(scene);
     warn_of_precision(scene);
-    return alpi_sides_create(scene);
+    return ALP_OK;
 }
 
 void alp_scene_set_metals(alp_scene *scene, alp_metals metals)

@@ -160,6 +160,9 @@ alp_result alpi_scene_create(alp_context *context, const char *name, alp_scene *
 ///         OUT_OF_MEMORY; CANCELLED
 alp_result alpi_scene_finish(alp_scene *scene);
 
+/// The same without warnings that a scene with the same materials and places gave before.
+alp_result alpi_scene_finish_quietly(alp_scene *scene);
+
 /// A material with glTF's defaults except metallic 0, named `name`.
 alpi_material alpi_material_default(void);
 /// No texture.

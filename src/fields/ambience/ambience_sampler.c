@@ -29,7 +29,8 @@ static const double OCCLUDER_REACH = 4.0;
 
 struct alp_ambience_sampler {
     alp_ambience *ambience;
-    const alp_scene *scene;
+    const alp_scene *scene; // that rays meet
+    alp_scene *simple;      // NULL, or the same: the sampler's own
     alp_ambience_sampler_options options;
     alpi_tracer *tracer;
     alpi_lighting *all;   // whose lamps and suns count
@@ -77,6 +78,10 @@ static alp_result check_options(const alp_ambience_sampler_options *o, const alp
                              faces[i], ALPI_HITS_FACE_MOST);
         }
     }
+    if (!(o->detail >= 0.0f) || !isfinite(o->detail)) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: detail of %g m, need a finite one ≥ 0", (double)o->detail);
+    }
     return alpi_lighting_refuse_darkness(scene, &o->lighting);
 }
 
@@ -112,6 +117,10 @@ static double find_height(void *user, double x, double z)
 
 static alp_result start(alp_ambience_sampler *s)
 {
+    if (s->options.detail > 0.0f) {
+        ALP_TRY(alp_scene_simplify(s->scene, s->options.detail, &s->simple));
+        s->scene = s->simple;
+    }
     ALP_TRY(alpi_tracer_for_scene(s->scene, NULL, NULL, &s->tracer, NULL));
     s->moments = alpi_allocate(s->scene->context, BATCH, sizeof *s->moments);
     return s->moments == NULL ? ALP_ERROR_OUT_OF_MEMORY : make_lighting(s);
@@ -171,9 +180,11 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
         s->ambience->options.height = NULL;
         s->ambience->options.height_user = NULL;
     }
+    alp_context *context = s->scene->context;
     clear_lighting(s);
-    alpi_release(s->scene->context, s->moments);
-    alpi_release(s->scene->context, s);
+    alpi_release(context, s->moments);
+    alp_scene_destroy(s->simple);
+    alpi_release(context, s);
 }
 
 alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
@@ -232,6 +243,12 @@ static alp_result check_occluders(alp_context *context, const double (*spheres)[
     return ALP_OK;
 }
 
+static bool is_same_sphere(const alpi_occluders *a, const alpi_occluders *b, uint32_t i)
+{
+    const vec3 from = a->centres[i], to = b->centres[i];
+    return from.x == to.x && from.y == to.y && from.z == to.z && a->radii[i] == b->radii[i];
+}
+
 alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
                                               const double (*spheres)[4], uint32_t count)
 {
@@ -246,9 +263,7 @@ alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,
         new.radii[i] = (float)spheres[i][3];
     }
     for (uint32_t i = 0; i < ALPI_OCCLUDERS_MOST; i++) {
-        const vec3 moved = vec3_sub(old.centres[i], new.centres[i]);
-        const bool stays = i < old.count && i < count && old.radii[i] == new.radii[i] &&
-                           !(vec3_dot(moved, moved) > 0.0f);
+        const bool stays = i < old.count && i < count && is_same_sphere(&old, &new, i);
         sampler->occluders = old;
         if (!stays && i < old.count) {
             invalidate_near(sampler, i);

@@ -60,8 +60,8 @@ typedef struct alpi_sphere_relight {
     // NULL, or sources that extra rays are aimed at (sphere_aimed.h): then rays that meet emission
     // by chance do not count it. Of a sky whose spots are aimed at, `lighting` has the soft part.
     const alpi_lighting *aimed;
-    // A lamp or sun of `lighting`, or ALPI_NONE: all light. Of a lamp alone there is no sky and no
-    // emission; `aimed` is NULL, and `bounce` gives the light of that lamp.
+    // A lamp or sun of `lighting`, or ALPI_NONE: all light. With a lamp alone, there is no sky and
+    // no emission, `aimed` is NULL, and `bounce` gives the light of that lamp.
     uint32_t only_light;
     alpi_bounce_fn *bounce; // NULL: 0
     const void *bounce_user;
