@@ -182,7 +182,8 @@ TEST(places_that_are_not_finite_are_black)
 {
     alp_ambience *a = world_open(context, NULL);
     const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
-    const double low[3] = {-1.0, NAN, -1.0}, high[3] = {1.0, 1.0, 1.0}, far = INFINITY;
+    const double low[3] = {-1.0, (double)NAN, -1.0}, high[3] = {1.0, 1.0, 1.0},
+                 far = (double)INFINITY;
     const double corners[4][3] = {
         {NAN, 0.0, 0.0}, {1.0, far, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}};
     const float normals[4][3] = {

@@ -113,9 +113,9 @@ TEST(spheres_that_are_none_are_refused)
 {
     const double bad[5][4] = {{0.0, 0.0, 0.0, 0.0},
                               {0.0, 0.0, 0.0, -1.0},
-                              {NAN, 0.0, 0.0, 1.0},
+                              {(double)NAN, 0.0, 0.0, 1.0},
                               {0.0, 1e300, 0.0, 1.0},
-                              {0.0, 0.0, 0.0, INFINITY}};
+                              {0.0, 0.0, 0.0, (double)INFINITY}};
     const double many[17][4] = {{0.0, 0.0, 0.0, 1.0}};
     air v = open_air();
     for (int i = 0; i < 5; i++) {
