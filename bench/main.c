@@ -8,11 +8,13 @@ static const struct {
     const char *name;
     bench_fn *run;
 } benches[] = {
-    {"trace", bench_trace},     {"transport", bench_transport}, {"atlas", bench_atlas},
-    {"maps", bench_maps},       {"accuracy", bench_accuracy},   {"truth", bench_against_truth},
-    {"denoise", bench_denoise}, {"bounced", bench_bounced},     {"light", bench_light},
-    {"sh", bench_sh},           {"probes", bench_probes},       {"fields", bench_fields},
-    {"formats", bench_formats},
+    {"trace", bench_trace},       {"transport", bench_transport},
+    {"atlas", bench_atlas},       {"maps", bench_maps},
+    {"accuracy", bench_accuracy}, {"truth", bench_against_truth},
+    {"denoise", bench_denoise},   {"bounced", bench_bounced},
+    {"light", bench_light},       {"sh", bench_sh},
+    {"probes", bench_probes},     {"fields", bench_fields},
+    {"ambience", bench_ambience}, {"formats", bench_formats},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
@@ -50,7 +52,7 @@ int main(int count, char **words)
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
                     "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
-                    "sh, probes, fields, formats, --quick, "
+                    "sh, probes, fields, ambience, formats, --quick, "
                     "--markdown, --scene NAME, --technique NAME\n",
                     words[i]);
             return EXIT_USAGE;

@@ -4,7 +4,7 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas, peers, sh or fields; without it all six. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers, sh, fields or ambience; without it all seven. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -85,6 +85,11 @@ fields() {
     "$tests/test_truth" test_probe_leak | sed -n 's/^leak: //p'
 }
 
+ambience() {
+    head_of ambience "Live ambience"
+    section 'The volume along flights' ambience
+}
+
 write_page() {
     local page=$1 new
     new=$(mktemp)
@@ -103,10 +108,10 @@ write_page() {
     esac
 }
 
-for page in "${@:-accuracy speed atlas peers sh fields}"; do
+for page in "${@:-accuracy speed atlas peers sh fields ambience}"; do
     for one in $page; do
         case $one in
-            accuracy | speed | atlas | peers | sh | fields) write_page "$one" ;;
+            accuracy | speed | atlas | peers | sh | fields | ambience) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac
     done

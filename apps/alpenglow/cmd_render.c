@@ -6,33 +6,13 @@
 #include "lighting.h"
 #include "output.h"
 #include "session.h"
+#include "views.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE_LIMIT = 16384, CAMERA_NUMBERS = 7 };
-
-/// "960x540"
-static int read_resolution(const char *text, alp_render_options *o)
-{
-    char width_text[16] = "";
-    const char *x = strchr(text, 'x');
-    uint64_t width = 0, height = 0;
-    if (x != NULL && (size_t)(x - text) < sizeof width_text) {
-        memcpy(width_text, text, (size_t)(x - text));
-    }
-    if (number_parse_whole(width_text, &width) != NUMBER_OK ||
-        number_parse_whole(x + 1, &height) != NUMBER_OK || width < 1 || width > SIDE_LIMIT ||
-        height < 1 || height > SIDE_LIMIT) {
-        return usage_error(COMMAND_RENDER,
-                           "--resolution: '%s' is not a size; give WxH, each 1 to %d pixels", text,
-                           SIDE_LIMIT);
-    }
-    o->width = (uint32_t)width;
-    o->height = (uint32_t)height;
-    return EXIT_DONE;
-}
+enum { CAMERA_NUMBERS = 7 };
 
 static bool read_numbers(const char *text, double *numbers, int count)
 {
@@ -83,7 +63,7 @@ static int read_camera(const char *text, const double origin[3], alp_render_opti
 /// Methods and models of the choices of --with, in their order.
 static const struct {
     alp_render_method method;
-    int model; // of FIELD: an ambient model, or PROBES
+    int model; // of FIELD: an ambient model, PROBES or AMBIENCE
 } methods[] = {{ALP_RENDER_AO, 0},
                {ALP_RENDER_ALBEDO, 0},
                {ALP_RENDER_REFERENCE, 0},
@@ -95,8 +75,9 @@ static const struct {
                {ALP_RENDER_FIELD, ALP_AMBIENT_GROUND_MAP},
                {ALP_RENDER_FIELD, ALP_AMBIENT_CUBE},
                {ALP_RENDER_FIELD, ALP_AMBIENT_ENVIRONMENT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT}};
-enum { PROBES = ALP_AMBIENT_COUNT };
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1}};
+enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE };
 
 static int model_of(const command_line *a)
 {
@@ -106,6 +87,16 @@ static int model_of(const command_line *a)
 static bool shows_probes(const command_line *a, const alp_render_options *o)
 {
     return o->method == ALP_RENDER_FIELD && model_of(a) == PROBES;
+}
+
+static bool shows_ambience(const command_line *a, const alp_render_options *o)
+{
+    return o->method == ALP_RENDER_FIELD && model_of(a) == AMBIENCE;
+}
+
+static int check_flight(const command_line *a, const alp_render_options *o)
+{
+    return shows_ambience(a, o) ? flight_run_check(a) : flight_run_refuse(a);
 }
 
 /// Refuses options that a method does not use.
@@ -217,7 +208,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     if (!a->values[OPTION_WITH].given) {
         return usage_error(COMMAND_RENDER, "no method; give --with reference, radiosity, "
-                                           "lightmap, probes, ao, albedo or another");
+                                           "lightmap, probes, ambience, ao, albedo or another");
     }
     o->method = methods[a->values[OPTION_WITH].choice].method;
     o->without_direct = a->values[OPTION_DIRECT].choice == 0;
@@ -226,13 +217,14 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     o->atlas.size = (uint32_t)a->values[OPTION_SIZE].whole;
     int code = linear ? film_refuse(a, output) : EXIT_DONE;
     if (code == EXIT_DONE) {
-        code = read_resolution(a->values[OPTION_RESOLUTION].text, o);
+        code = resolution_read(a, &o->width, &o->height);
     }
     if (code == EXIT_DONE) {
         code = read_camera(a->values[OPTION_CAMERA].text, (const double[3]){0.0, 0.0, 0.0}, o);
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
+    code = code == EXIT_DONE ? check_flight(a, o) : code;
     code = code == EXIT_DONE ? probe_file_check(a) : code;
     code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
@@ -308,10 +300,27 @@ static alp_result bake_light(session *s, const command_line *a, const alp_render
     return result;
 }
 
+/// Flies, and takes light and, without --camera, the view of the last moment.
+static int make_ambience(session *s, const command_line *a, alp_render_options *o,
+                         field_source *source)
+{
+    const int code = field_ambience(s, a, &o->lighting, source);
+    if (code == EXIT_DONE) {
+        const flight_run *run = source->flight;
+        const flight_camera camera = flight_run_camera(run);
+        o->lighting = run->lighting;
+        o->camera = a->values[OPTION_CAMERA].given ? o->camera : flight_view(&camera);
+    }
+    return code;
+}
+
 /// Makes the field of --with.
 static int make_field(session *s, const command_line *a, alp_render_options *o,
                       field_source *source)
 {
+    if (shows_ambience(a, o)) {
+        return make_ambience(s, a, o, source);
+    }
     if (!shows_probes(a, o)) {
         const alp_ambient_model model = (alp_ambient_model)model_of(a);
         const alp_result result = field_fit(s, a, model, &o->lighting, source);
@@ -349,7 +358,7 @@ static int render(session *s, const command_line *a, alp_render_options *o)
     double start = clock_seconds();
     o->progress = session_progress;
     o->progress_user = s;
-    field_source source = {NULL, NULL};
+    field_source source = {0};
     interrupt_defer();
     const int made = o->method == ALP_RENDER_FIELD ? make_field(s, a, o, &source) : EXIT_DONE;
     if (made != EXIT_DONE) {

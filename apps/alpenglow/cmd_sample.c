@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 /// Choices of --with, in its order; the ambient models stand first, in theirs.
-enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE };
+enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE, WITH_AMBIENCE };
 
 static int check_options(const command_line *a)
 {
@@ -23,8 +23,9 @@ static int check_options(const command_line *a)
                    {"--bounds", OPTION_BOUNDS, WITH_PROBES},
                    {"--samples", OPTION_SAMPLES, WITH_REFERENCE}};
     if (!with->given) {
-        return usage_error(COMMAND_SAMPLE, "no model; give --with reference, probes, constant, "
-                                           "hemisphere, ground-map, ambient-cube or environment");
+        return usage_error(COMMAND_SAMPLE,
+                           "no model; give --with reference, probes, ambience, constant, "
+                           "hemisphere, ground-map, ambient-cube or environment");
     }
     if (!a->values[OPTION_AT].given) {
         return usage_error(COMMAND_SAMPLE, "no points; give --at POINTS.csv, a line of "
@@ -36,7 +37,8 @@ static int check_options(const command_line *a)
                                with->text);
         }
     }
-    return probe_file_check(a);
+    const int code = with->choice == WITH_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
+    return code == EXIT_DONE ? probe_file_check(a) : code;
 }
 
 typedef struct sampled {
@@ -71,10 +73,12 @@ static int read_field(session *s, const command_line *a, const alp_lighting_opti
                       const point_list *points, sampled *out)
 {
     const int with = a->values[OPTION_WITH].choice;
-    field_source source = {NULL, NULL};
+    field_source source = {0};
     int code = EXIT_DONE;
     if (with == WITH_PROBES) {
         code = field_probes(s, a, lighting, ALP_LOOKUP_OURS, &source);
+    } else if (with == WITH_AMBIENCE) {
+        code = field_ambience(s, a, lighting, &source);
     } else {
         code = session_end(s, field_fit(s, a, (alp_ambient_model)with, lighting, &source));
     }

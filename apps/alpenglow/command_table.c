@@ -44,6 +44,12 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Solves the light of SCENE and samples it at probes, for everything that moves. Probes "
          "stand on a grid (--spacing, --bounds) or at any places (--at). docs/manual/"
          "probe-format.md describes the files."},
+    [COMMAND_AMBIENCE] =
+        {"ambience", "SCENE --path FLIGHT.csv [OPTIONS]", "fly a camera with live light", 1,
+         command_ambience,
+         "Flies a camera through SCENE and lights what is around it: a volume of light probes "
+         "that are sampled frame by frame, fade in, and expire. Prints anchors, samples, memory, "
+         "time and error of each second. docs/manual/ambience.md explains them."},
     [COMMAND_SH] = {"sh", "ENV [--convention NAME] [-o IMAGE.hdr|.exr|.png]",
                     "print the spherical harmonics of an environment", 1, command_sh,
                     "Projects ENV to nine coefficients and prints them, one \"r g b\" a line, for "
@@ -62,11 +68,9 @@ static const command_entry commands[COMMAND_COUNT] = {
          "reference), denoise, bounced (methods of gathering bounced light), light (its rays "
          "against the ray tracer, its bakes by workers and size), sh (projection of cube maps), "
          "probes (look-ups, and rays against the ray tracer), fields (models of light in space "
-         "against the reference) or formats (reading)."},
+         "against the reference), ambience (the live volume along flights) or formats (reading)."},
     [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
                      "bake --maps light bakes light on surfaces"},
-    [COMMAND_AMBIENCE] = {"ambience", "SCENE", "live ambience for a moving camera", 1, NULL,
-                          "bake --maps light bakes light on surfaces"},
     [COMMAND_VIEW] = {"view", "SCENE|OUT", "display a scene", 1, NULL,
                       "render makes a picture, and any glTF viewer displays a bake"},
 };
@@ -90,7 +94,7 @@ int command_operand_limit(command_id command)
 bool command_interruptible(command_id command)
 {
     return command == COMMAND_BAKE || command == COMMAND_RENDER || command == COMMAND_SAMPLE ||
-           command == COMMAND_PROBES;
+           command == COMMAND_PROBES || command == COMMAND_AMBIENCE;
 }
 
 const char *const *builtin_scene_names(size_t *count)

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int read_bounds(const command_line *a, const double origin[3], alp_probe_options *o)
@@ -91,7 +92,7 @@ alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
     o.model = model;
     o.lighting = *lighting;
     o.bounces = lighting_bounces(a);
-    o.direct = a->command == COMMAND_SAMPLE && a->values[OPTION_DIRECT].choice == 1;
+    o.direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
     o.seed = a->values[OPTION_SEED].whole;
     o.progress = session_progress;
     o.progress_user = s;
@@ -131,6 +132,26 @@ int field_probes(session *s, const command_line *a, const alp_lighting_options *
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
 }
 
+int field_ambience(session *s, const command_line *a, const alp_lighting_options *lighting,
+                   field_source *source)
+{
+    flight_frame last = {0};
+    source->flight = allocate_or_exit(NULL, sizeof *source->flight);
+    const int code = flight_run_open(s, a, lighting, source->flight);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    flight_run *run = source->flight;
+    alp_result result = flight_run_finish(run, &last);
+    if (result == ALP_OK) { // what the last frame sampled counts from the next update on
+        result = alp_ambience_update(run->ambience, last.time);
+    }
+    if (result == ALP_OK) {
+        result = alp_field_create_ambience(run->ambience, &source->field);
+    }
+    return session_end(s, result);
+}
+
 void probes_print(const alp_probes_info *i)
 {
     static const char *const bases[] = {"sh9", "sh4", "ambient-cube"};
@@ -159,5 +180,9 @@ void field_source_clear(field_source *source)
 {
     alp_field_destroy(source->field);
     alp_probes_destroy(source->probes);
-    *source = (field_source){NULL, NULL};
+    if (source->flight != NULL) {
+        flight_run_close(source->flight);
+        free(source->flight);
+    }
+    *source = (field_source){0};
 }

@@ -3,12 +3,13 @@
 #ifndef COMMAND_FIELDS_H
 #define COMMAND_FIELDS_H
 
-#include "session.h"
+#include "flight_run.h"
 
 /// The parts behind the field of a command.
 typedef struct field_source {
     alp_field *field;   // owned
     alp_probes *probes; // owned, or NULL
+    flight_run *flight; // owned, or NULL
 } field_source;
 
 /// Probe options of the arguments: grid, rays, basis, light. `lighting` is copied, not its parts.
@@ -28,6 +29,10 @@ alp_result field_fit(session *s, const command_line *arguments, alp_ambient_mode
 /// @return EXIT_DONE, or an exit code after a message
 int field_probes(session *s, const command_line *arguments, const alp_lighting_options *lighting,
                  alp_probe_lookup lookup, field_source *source);
+/// Flies to the end of the flight, and makes the field of the volume.
+/// @return EXIT_DONE, or an exit code after a message
+int field_ambience(session *s, const command_line *arguments, const alp_lighting_options *lighting,
+                   field_source *source);
 /// Prints what probes hold, and how good they are.
 void probes_print(const alp_probes_info *info);
 void field_source_clear(field_source *source);

@@ -76,6 +76,18 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                       {"Bake them for three.js:",
                        "alpenglow probes builtin:cornell --spacing 0.2 --export three -f -o "
                        "room.probes.json"}}},
+    [COMMAND_AMBIENCE] =
+        {.failed = "The scene or FLIGHT could not be read, nothing lights the scene, or a file "
+                   "could not be written.",
+         .files = {{"SCENE", "Scene to fly through, or a built-in scene."},
+                   {"FLIGHT.csv", "The flight: lines of t,px,py,pz,tx,ty,tz[,vfov]."},
+                   {"DIR/frame_0001.png", "The picture of the first second (--pictures)."},
+                   {"DIR/preview.png", "An object at moments of the flight (--preview)."}},
+         .examples = {{"Fly through the built-in terrain under a clear sky:",
+                       "alpenglow ambience builtin:terrain --sky clear --sun 40,30,80000"},
+                      {"Fly there through a day of 20 seconds, and write a line for each second:",
+                       "alpenglow ambience builtin:terrain --sky clear --sun 40,50,80000 --day 20 "
+                       "--csv flight.csv"}}},
     [COMMAND_SH] = {.failed = "ENV could not be read or is no equirectangular float image, or the "
                               "image could not be written.",
                     .files = {{"ENV", "Environment to project (.hdr or .exr)."},

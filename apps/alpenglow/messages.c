@@ -70,11 +70,22 @@ static void print_message(const message_log *m, bool warning, const char *object
     fputc('\n', stderr);
 }
 
+/// Whether the last warning was the same: pictures of one place have the same faults.
+static bool is_repeated(const message_log *m, const alp_log_message *logged)
+{
+    const message *last = m->warning_count > 0 ? &m->warnings[m->warning_count - 1] : NULL;
+    return last != NULL && strcmp(last->code, logged->code) == 0 &&
+           strcmp(last->object, logged->object) == 0 && strcmp(last->text, logged->text) == 0;
+}
+
 void messages_log(void *user, const alp_log_message *logged)
 {
     message_log *m = user;
     const bool warning = logged->level == ALP_LOG_WARNING;
     if (warning) {
+        if (is_repeated(m, logged)) {
+            return;
+        }
         keep(m, logged);
     }
     if (warning ? !m->held : !m->quiet) {

@@ -6,7 +6,7 @@
 #include "options.h"
 
 #define RAY_COMMANDS (IN_BAKE | IN_RENDER)
-#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES)
+#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE)
 #define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
 typedef struct option_part {
@@ -20,6 +20,7 @@ extern const option_part option_part_stop;
 extern const option_part option_part_picture;
 extern const option_part option_part_light;
 extern const option_part option_part_space;
+extern const option_part option_part_ambience;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_later;

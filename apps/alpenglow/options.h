@@ -17,11 +17,11 @@ typedef enum command_id {
     COMMAND_COMPARE,
     COMMAND_SAMPLE,
     COMMAND_PROBES,
+    COMMAND_AMBIENCE,
     COMMAND_SH,
     COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
     COMMAND_LPV = COMMAND_BUILT_COUNT,
-    COMMAND_AMBIENCE,
     COMMAND_VIEW,
     COMMAND_COUNT
 } command_id;
@@ -33,6 +33,7 @@ enum {
     IN_COMPARE = 1 << COMMAND_COMPARE,
     IN_SAMPLE = 1 << COMMAND_SAMPLE,
     IN_PROBES = 1 << COMMAND_PROBES,
+    IN_AMBIENCE = 1 << COMMAND_AMBIENCE,
     IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
 };
@@ -59,12 +60,30 @@ typedef enum option_id {
     OPTION_BOUNDS,
     OPTION_BASIS,
     OPTION_VISIBILITY,
+    OPTION_WARM,
     OPTION_GRADIENTS,
     OPTION_LOOKUP,
     OPTION_EXPORT,
     OPTION_EXPORT_SCALE,
     OPTION_OBJECT,
     OPTION_OVERLAY,
+    OPTION_PATH,
+    OPTION_TIME,
+    OPTION_FPS,
+    OPTION_BUDGET,
+    OPTION_BUDGET_MS,
+    OPTION_PREDICTION,
+    OPTION_DAY,
+    OPTION_CELL,
+    OPTION_DEPTH,
+    OPTION_ANCHORS,
+    OPTION_LIFETIME,
+    OPTION_FADE,
+    OPTION_FLAT,
+    OPTION_CSV,
+    OPTION_PREVIEW,
+    OPTION_ERRORS,
+    OPTION_REFERENCE_SAMPLES,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
@@ -137,6 +156,7 @@ typedef enum option_id {
 typedef enum option_group {
     GROUP_OUTPUT,
     GROUP_WHAT,
+    GROUP_FLIGHT,
     GROUP_PICTURE,
     GROUP_AO,
     GROUP_LIGHT,
@@ -260,6 +280,7 @@ int command_info(const command_line *arguments);
 int command_compare(const command_line *arguments);
 int command_sample(const command_line *arguments);
 int command_probes(const command_line *arguments);
+int command_ambience(const command_line *arguments);
 int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
 

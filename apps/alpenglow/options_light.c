@@ -153,7 +153,7 @@ static const option rows[] = {
              "vScale = -1 in Babylon.js.\n"
              "hdr: Radiance RGBE, 8 bits and an exponent."},
     {.id = OPTION_BOUNCES,
-     .commands = LIGHT_COMMANDS,
+     .commands = LIGHT_COMMANDS & ~IN_AMBIENCE,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--bounces",

@@ -10,8 +10,8 @@ static const option rows[] = {
      .name = "--with",
      .value = "METHOD",
      .choices = "ao|albedo|reference|lightmap|radiosity|hemicube|constant|hemisphere|ground-map|"
-                "ambient-cube|environment|probes",
-     .later_choices = "ambience|lpv",
+                "ambient-cube|environment|probes|ambience",
+     .later_choices = "lpv",
      .help = "Method of rendering, required. reference, radiosity, lightmap and the models of "
              "ambient light see through blended and transmissive surfaces; the others cut them at "
              "alpha 0.5 or take them as opaque.\n"
@@ -28,6 +28,8 @@ static const option rows[] = {
              "hemicube: the five faces of half a cube at the camera, as a texel there "
              "sees them if it faces the target (--show, --hemicube).\n"
              "probes: light probes, from --probes FILE or baked with --spacing.\n"
+             "ambience: the live volume after a flight (--path, --time), from its camera unless "
+             "--camera is given.\n"
              "constant, hemisphere, ground-map, ambient-cube, environment: classic models of "
              "ambient light, fitted to the scene's light (see sample). Light straight from "
              "lamps and suns is added at each pixel, with shadows (--direct)."},
@@ -74,7 +76,7 @@ static const option rows[] = {
      .choices = "off|on",
      .initial = "on",
      .help = "Light straight from lamps and suns on the surfaces in view, for reference, "
-             "radiosity, probes and the models of ambient light."},
+             "radiosity, probes, ambience and the models of ambient light."},
     {.id = OPTION_LOOKUP,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,
@@ -93,8 +95,9 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--object",
      .value = "sphere|teapot,X,Y,Z,RADIUS",
-     .help = "A white object at X,Y,Z, lit by the method: reference, probes or a model of "
-             "ambient light. It casts no shadow."},
+     .help =
+         "A white object at X,Y,Z, lit by the method: reference, probes, ambience or a model of "
+         "ambient light. It casts no shadow."},
     {.id = OPTION_OVERLAY,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

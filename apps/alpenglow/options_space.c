@@ -8,12 +8,13 @@ static const option rows[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "reference|probes|constant|hemisphere|ground-map|ambient-cube|environment",
-     .choices = "constant|hemisphere|ground-map|ambient-cube|environment|probes|reference",
-     .later_choices = "ambience|lpv",
+     .value = "reference|probes|ambience|constant|hemisphere|ground-map|ambient-cube|environment",
+     .choices = "constant|hemisphere|ground-map|ambient-cube|environment|probes|reference|ambience",
+     .later_choices = "lpv",
      .help = "Model of the light, required.\n"
              "reference: path tracing, the truth.\n"
              "probes: a grid of light probes, from --probes FILE or baked with --spacing.\n"
+             "ambience: the live volume after a flight (--path, --time).\n"
              "constant: one colour for the whole scene.\n"
              "hemisphere: one colour from above and one from below.\n"
              "ground-map: the same, and the light that the ground below sends up.\n"
@@ -153,7 +154,7 @@ static const option rows[] = {
      .initial = "1024",
      .help = "Paths of each point of --with reference, rounded up to a multiple of 16."},
     {.id = OPTION_DIRECT,
-     .commands = IN_PROBES | IN_SAMPLE,
+     .commands = IN_PROBES | IN_SAMPLE | IN_AMBIENCE,
      .group = GROUP_LIGHT,
      .kind = KIND_CHOICE,
      .name = "--direct",

@@ -160,7 +160,9 @@ bool output_is_same(const char *a, const char *b)
 
 static bool write_all(FILE *file, const char *text)
 {
-    bool good = fputs(text, file) >= 0 && fputc('\n', file) != EOF;
+    const size_t length = strlen(text);
+    const bool ended = length > 0 && text[length - 1] == '\n';
+    const bool good = fputs(text, file) >= 0 && (ended || fputc('\n', file) != EOF);
     return fclose(file) == 0 && good;
 }
 
@@ -219,6 +221,12 @@ int output_write_json(const json_t *document, const char *path, bool overwrite)
     }
     free(text);
     return code;
+}
+
+int output_write_text(const char *text, const char *path, bool overwrite)
+{
+    const int code = output_check(path, overwrite); // again: the work may have taken hours
+    return code == EXIT_DONE ? write_and_rename(text, path) : code;
 }
 
 json_t *json_number(double number)

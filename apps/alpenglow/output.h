@@ -24,6 +24,9 @@ bool output_is_same(const char *a, const char *b);
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int output_write_json(const json_t *document, const char *path, bool overwrite);
 
+/// Writes text whose lines end, in the same way, to a file.
+int output_write_text(const char *text, const char *path, bool overwrite);
+
 /// A JSON number, null if it is not finite. A JSON text, '?' for bytes that are not UTF-8.
 json_t *json_number(double number);
 json_t *json_text(const char *text);

@@ -3,35 +3,10 @@
 #include "pictures.h"
 
 #include "output.h"
+#include "views.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-
-/// "FOLDER/NAME.png"; malloc'ed.
-static char *make_path(const char *folder, const char *name)
-{
-    const size_t size = strlen(folder) + strlen(name) + sizeof "/.png";
-    char *path = allocate_or_exit(NULL, size);
-    const char *slash = folder[strlen(folder) - 1] == '/' ? "" : "/";
-    snprintf(path, size, "%s%s%s.png", folder, slash, name);
-    return path;
-}
-
-static int make_folder(const char *folder)
-{
-    struct stat there;
-    if (mkdir(folder, 0777) == 0 ||
-        (errno == EEXIST && stat(folder, &there) == 0 && S_ISDIR(there.st_mode))) {
-        return EXIT_DONE;
-    }
-    char text[512];
-    snprintf(text, sizeof text, "--pictures %.300s: the folder cannot be made: %s", folder,
-             errno == EEXIST ? "a file has its name" : strerror(errno));
-    return failure(text);
-}
 
 static int write_one(session *s, const alp_diagnosis *diagnosis, uint32_t index, const char *path,
                      bool overwrite)
@@ -59,10 +34,10 @@ int pictures_write(session *s, const alp_diagnosis *diagnosis, const command_lin
         fputs("alpenglow: --pictures: there is nothing to draw: no triangle has an area\n", stderr);
         return EXIT_DONE;
     }
-    int code = make_folder(folder);
+    int code = pictures_folder(folder);
     for (int pass = 0; pass < 2; pass++) { // all are checked before any is drawn
         for (uint32_t i = 0; i < count && code == EXIT_DONE; i++) {
-            char *path = make_path(folder, alp_diagnosis_picture_name(diagnosis, i));
+            char *path = pictures_path(folder, alp_diagnosis_picture_name(diagnosis, i));
             if (pass == 0) {
                 code = output_check(path, overwrite);
             } else {

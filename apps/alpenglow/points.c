@@ -7,8 +7,7 @@
 
 enum { COLUMNS = 6, POINT_LIMIT = 1 << 26, MESSAGE_SIZE = 400 };
 
-/// Numbers at the start of a line. @param end out: behind the last one   @return how many
-static int read_numbers(const char *line, double numbers[COLUMNS], int wanted, const char **end)
+int points_numbers(const char *line, double *numbers, int wanted, const char **end)
 {
     const char *at = line;
     int count = 0;
@@ -27,15 +26,14 @@ static int read_numbers(const char *line, double numbers[COLUMNS], int wanted, c
     return count;
 }
 
-/// Whether a line has letters that are no number: names of columns.
-static bool is_header(const char *line)
+bool points_are_names(const char *line)
 {
-    double numbers[COLUMNS];
+    double number;
     const char *end;
-    return read_numbers(line, numbers, 1, &end) == 0 && strpbrk(line, "xX") != NULL;
+    return points_numbers(line, &number, 1, &end) == 0 && strpbrk(line, "xX") != NULL;
 }
 
-static int refuse(const char *path, unsigned long line, const char *text)
+int points_refuse(const char *path, unsigned long line, const char *text)
 {
     char fault[MESSAGE_SIZE];
     snprintf(fault, sizeof fault, "%s:%lu: %s", path, line, text);
@@ -106,10 +104,10 @@ static int read_lines(FILE *file, const char *path, bool normals, const double o
          number++) {
         double numbers[COLUMNS] = {0.0};
         const char *start = line + strspn(line, " \t\r\n"), *end = start;
-        if (*start == '\0' || *start == '#' || (points->count == 0 && is_header(start))) {
+        if (*start == '\0' || *start == '#' || (points->count == 0 && points_are_names(start))) {
             continue;
         }
-        const int count = read_numbers(start, numbers, wanted, &end);
+        const int count = points_numbers(start, numbers, wanted, &end);
         const char *fault = fault_of(numbers, count, wanted);
         if (fault == NULL && points->count == POINT_LIMIT) {
             fault = "too many points; split the file";
@@ -118,7 +116,7 @@ static int read_lines(FILE *file, const char *path, bool normals, const double o
             grow(points, normals, &room);
             keep(points, numbers, origin, start, end);
         }
-        code = fault != NULL ? refuse(path, number, fault) : EXIT_DONE;
+        code = fault != NULL ? points_refuse(path, number, fault) : EXIT_DONE;
     }
     free(line);
     return code;

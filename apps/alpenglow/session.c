@@ -75,7 +75,7 @@ int session_end(session *s, alp_result result)
     }
     if (result == ALP_ERROR_CANCELLED) {
         if (interrupt_asked()) {
-            failure("interrupted; nothing was written");
+            failure(s->has_written ? "interrupted" : "interrupted; nothing was written");
             return EXIT_INTERRUPTED;
         }
         return session_judge_warnings(s);

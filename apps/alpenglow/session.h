@@ -15,6 +15,7 @@ typedef struct session {
     message_log messages;
     progress_display progress;
     bool warnings_as_errors;
+    bool has_written; // some files, before the end
     double load_seconds;
 } session;
 

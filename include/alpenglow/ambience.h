@@ -51,7 +51,7 @@ typedef struct alp_ambience_options {
     void *height_user;
     double lifetime; ///< seconds that an anchor's light is valid, > 0; default 6
     double fade;     ///< seconds that new light takes to replace old, at least, ≥ 0; default 1
-    uint32_t anchor_limit; ///< anchors that may be held, [64, 1048576]; default 4096
+    uint32_t anchor_limit; ///< anchors that may be held, [64, 1048576]; default 8192
     bool visibility;       ///< distances are kept against light through walls; default true
     alp_ambience_lookup lookup;
 } alp_ambience_options;
@@ -244,6 +244,15 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_sample(alp_ambience_sampler *sampl
                                                      const alp_ambience_camera *camera,
                                                      uint32_t samples, double milliseconds,
                                                      alp_ambience_work *work);
+
+/// Fills all windows round a camera, before time moves: behind a loading screen. Without it, light
+/// of the first seconds fades in, and bounces arrive with renewals.
+/// @param time    as of alp_ambience_update; the first, or before it
+/// @param bounces times that all anchors are lit; 5 are enough for most scenes
+/// @return as alp_ambience_sample; INVALID_ARGUMENT also where time has moved
+ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
+                                                           const alp_ambience_camera *camera,
+                                                           double time, uint32_t bounces);
 
 /// A field that reads the snapshot of the last update, and keeps it until it is destroyed.
 /// @return ALP_OK; OUT_OF_MEMORY

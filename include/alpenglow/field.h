@@ -106,6 +106,14 @@ alp_reference_irradiance(const alp_scene *scene, const alp_reference_options *op
 ALP_API ALP_NODISCARD alp_result alp_scene_free_points(const alp_scene *scene, uint64_t seed,
                                                        uint32_t count, float (*positions)[3],
                                                        float (*normals)[3]);
+/// The same inside the part of the bounds that lies in a ball.
+/// @param centre metres   @param radius metres, > 0
+/// @return as alp_scene_free_points; INVALID_ARGUMENT also if the ball lies outside of the bounds
+ALP_API ALP_NODISCARD alp_result alp_scene_free_points_near(const alp_scene *scene,
+                                                            const float centre[3], float radius,
+                                                            uint64_t seed, uint32_t count,
+                                                            float (*positions)[3],
+                                                            float (*normals)[3]);
 
 ALP_END_DECLS
 

@@ -144,14 +144,38 @@ alp_result alp_reference_irradiance(const alp_scene *scene, const alp_reference_
 
 // --- free points ---------------------------------------------------------------------------------
 
-/// Places of the sequence in the bounds, with random normals.
-static void draw_points(const alp_scene *scene, uint64_t seed, uint32_t first, uint32_t count,
+/// Where points are drawn: a box, and a ball that it may be cut to.
+typedef struct draw_region {
+    vec3 low, size;
+    vec3 centre;
+    float radius; // INFINITY: the whole box
+} draw_region;
+
+static draw_region scene_region(const alp_scene *scene)
+{
+    return (draw_region){.low = scene->bounds_min,
+                         .size = vec3_sub(scene->bounds_max, scene->bounds_min),
+                         .radius = INFINITY};
+}
+
+/// The part of a scene's bounds that lies in a ball. @return false: it is empty
+static bool ball_region(const alp_scene *scene, vec3 centre, float radius, draw_region *region)
+{
+    const vec3 reach = {radius, radius, radius};
+    const vec3 low = vec3_max(scene->bounds_min, vec3_sub(centre, reach));
+    const vec3 high = vec3_min(scene->bounds_max, vec3_add(centre, reach));
+    *region = (draw_region){low, vec3_sub(high, low), centre, radius};
+    return low.x <= high.x && low.y <= high.y && low.z <= high.z;
+}
+
+/// Places of the sequence in the region, with random normals.
+static void draw_points(const draw_region *region, uint64_t seed, uint32_t first, uint32_t count,
                         float (*positions)[3], float (*normals)[3])
 {
     const uint32_t plan = alpi_random_key(seed, 0, STREAM_POSITION);
     const uint32_t height = alpi_random_key(seed, 0, STREAM_HEIGHT);
     const uint32_t normal = alpi_random_key(seed, 0, STREAM_NORMAL);
-    const vec3 low = scene->bounds_min, size = vec3_sub(scene->bounds_max, low);
+    const vec3 low = region->low, size = region->size;
     for (uint32_t i = 0; i < count; i++) {
         const vec2 at = alpi_sample_2d(plan, first + i), up = alpi_sample_2d(height, first + i);
         positions[i][0] = low.x + at.x * size.x;
@@ -161,8 +185,14 @@ static void draw_points(const alp_scene *scene, uint64_t seed, uint32_t first, u
     }
 }
 
-static alp_result find_free(const alp_scene *scene, uint64_t seed, uint32_t count,
-                            float (*positions)[3], float (*normals)[3], alpi_sphere_light *found)
+static bool in_ball(const draw_region *region, const float position[3])
+{
+    return vec3_length(vec3_sub(vec3_load(position), region->centre)) <= region->radius;
+}
+
+static alp_result find_free(const alp_scene *scene, const draw_region *region, uint64_t seed,
+                            uint32_t count, float (*positions)[3], float (*normals)[3],
+                            alpi_sphere_light *found)
 {
     enum { ROUNDS = 64 };
     alpi_tracer *tracer = NULL;
@@ -176,7 +206,7 @@ static alp_result find_free(const alp_scene *scene, uint64_t seed, uint32_t coun
     uint32_t done = 0, drawn = 0;
     for (int round = 0; round < ROUNDS && done < count; round++) {
         const uint32_t more = count - done;
-        draw_points(scene, seed, drawn, more, positions + done, normals + done);
+        draw_points(region, seed, drawn, more, positions + done, normals + done);
         const alpi_sphere_job job = {.rays = &rays,
                                      .points = (const float(*)[3])(positions + done),
                                      .count = more,
@@ -185,7 +215,7 @@ static alp_result find_free(const alp_scene *scene, uint64_t seed, uint32_t coun
         drawn += more;
         const uint32_t begin = done;
         for (uint32_t i = 0; i < more; i++) {
-            if (found[i].behind <= ALPI_FREE_BACKS) {
+            if (found[i].behind <= ALPI_FREE_BACKS && in_ball(region, positions[begin + i])) {
                 for (int k = 0; k < 3; k++) {
                     positions[done][k] = positions[begin + i][k];
                     normals[done][k] = normals[begin + i][k];
@@ -201,17 +231,41 @@ static alp_result find_free(const alp_scene *scene, uint64_t seed, uint32_t coun
                                      scene->name);
 }
 
+static alp_result free_points(const alp_scene *scene, const draw_region *region, uint64_t seed,
+                              uint32_t count, float (*positions)[3], float (*normals)[3])
+{
+    alpi_sphere_light *found = ALPI_NEW(scene->context, alpi_sphere_light, count);
+    if (found == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = find_free(scene, region, seed, count, positions, normals, found);
+    alpi_release(scene->context, found);
+    return result;
+}
+
 alp_result alp_scene_free_points(const alp_scene *scene, uint64_t seed, uint32_t count,
                                  float (*positions)[3], float (*normals)[3])
 {
     if (scene == NULL || positions == NULL || normals == NULL) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
-    alpi_sphere_light *found = ALPI_NEW(scene->context, alpi_sphere_light, count);
-    if (found == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+    const draw_region region = scene_region(scene);
+    return free_points(scene, &region, seed, count, positions, normals);
+}
+
+alp_result alp_scene_free_points_near(const alp_scene *scene, const float centre[3], float radius,
+                                      uint64_t seed, uint32_t count, float (*positions)[3],
+                                      float (*normals)[3])
+{
+    if (scene == NULL || centre == NULL || positions == NULL || normals == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
     }
-    const alp_result result = find_free(scene, seed, count, positions, normals, found);
-    alpi_release(scene->context, found);
-    return result;
+    draw_region region;
+    if (!vec3_is_finite(vec3_load(centre)) || !(radius > 0.0f) || !isfinite(radius) ||
+        !ball_region(scene, vec3_load(centre), radius, &region)) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "no free point: the ball of %g m about %g %g %g does not meet the scene",
+                         (double)radius, (double)centre[0], (double)centre[1], (double)centre[2]);
+    }
+    return free_points(scene, &region, seed, count, positions, normals);
 }

@@ -18,7 +18,7 @@ alp_ambience_options alp_ambience_options_default(void)
                                   .above = 1.5,
                                   .lifetime = 6.0,
                                   .fade = 1.0,
-                                  .anchor_limit = 4096,
+                                  .anchor_limit = 8192,
                                   .visibility = true};
 }
 
@@ -106,8 +106,13 @@ static alp_result create(alp_ambience *a)
     alpi_lights_open(a->context, o->visibility, &a->lights);
     alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
+    a->plan_age = UINT32_MAX / 2;
     a->rate = 1e6; // until hosts show otherwise
-    a->time = a->first_time = a->planned_time = NAN;
+    for (int k = 0; k < 3; k++) {
+        a->bounds_min[k] = -HUGE_VAL;
+        a->bounds_max[k] = HUGE_VAL;
+    }
+    a->time = a->first_time = a->planned_time = (double)NAN;
     ALP_TRY(alpi_graph_create(a->context, o->flat, o->depth, NODES_EACH * o->anchor_limit + chain,
                               &a->graph));
     ALP_TRY(alpi_requests_create(a));
@@ -166,8 +171,7 @@ static void find_base(alp_ambience *a)
     double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         const alpi_anchor *at = &a->anchors[i];
-        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) ||
-            at->slot == ALPI_NO_SLOT) {
+        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) || at->slot == ALPI_NO_SLOT) {
             continue;
         }
         const double width = (double)alpi_graph_width(at->level);
@@ -189,7 +193,7 @@ static void find_rate(alp_ambience *a, double step)
         return;
     }
     const double keep = exp(-step), now = (double)a->taken / step;
-    const bool starved = a->planned && a->wish_count > 0;
+    const bool starved = a->wish_count > 0;
     a->rate = starved ? keep * a->rate + (1.0 - keep) * now : fmax(a->rate * (1.0 + step), now);
     a->rate = fmin(a->rate, 1e6);
     a->taken = 0;
@@ -213,16 +217,21 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
     ALP_TRY(alpi_requests_collect(a));
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
+    ALP_TRY(alpi_ambience_compact(a));
     find_base(a);
     find_rate(a, step);
-    a->planned = false;
+    a->plan_age++;
     return alpi_snapshot_publish(a);
 }
 
 void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double box_min[3],
                              const double box_max[3])
 {
-    for (uint32_t i = 0; ambience != NULL && i < ambience->anchor_end; i++) {
+    if (ambience == NULL) {
+        return;
+    }
+    ambience->plan_age = UINT32_MAX / 2;
+    for (uint32_t i = 0; i < ambience->anchor_end; i++) {
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
         bool inside = true;
@@ -261,8 +270,8 @@ alp_ambience_info alp_ambience_get_info(const alp_ambience *a)
     info.open = alpi_requests_count(a);
     uint64_t distances = 0;
     const uint64_t shots = alpi_snapshots_bytes(a, &distances);
-    const uint64_t own = (a->lights.moment_capacity + a->nexts.moment_capacity) *
-                         sizeof *a->lights.moments;
+    const uint64_t own =
+        (a->lights.moment_capacity + a->nexts.moment_capacity) * sizeof *a->lights.moments;
     info.bytes_visibility = distances + own;
     info.bytes_hits = a->hit_bytes;
     info.bytes = sizeof *a + shots + own + a->graph.node_capacity * sizeof *a->graph.nodes +

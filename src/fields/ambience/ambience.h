@@ -23,27 +23,27 @@ typedef enum alpi_anchor_state {
 } alpi_anchor_state;
 
 typedef struct alpi_anchor {
-    int32_t index[3];                  // of the topmost node of its place when it was made
-    uint8_t level;                     // of that node
-    uint8_t state;                     // alpi_anchor_state
-    bool pending;                      // a request for it is open
-    bool leaving;                      // its light has expired and fades out
-    bool stale_light;                  // lighting changed since
-    bool stale_trace;                  // geometry changed since
-    bool coarse;                       // sampled by few rays
-    float height;                      // flat: metres of its place along y
-    uint32_t slot;      // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
-    uint32_t next;      // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
-    float mean;         // E of its light
+    int32_t index[3];      // of the topmost node of its place when it was made
+    uint8_t level;         // of that node
+    uint8_t state;         // alpi_anchor_state
+    bool pending;          // a request for it is open
+    bool leaving;          // its light has expired and fades out
+    bool stale_light;      // lighting changed since
+    bool stale_trace;      // geometry changed since
+    bool coarse;           // sampled by few rays
+    float height;          // flat: metres of its place along y
+    uint32_t slot;         // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
+    uint32_t next;         // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
+    float mean;            // E of its light
     float fade_left;       // seconds until then
-    float confidence;                  // [0, 1]
-    float confidence_rate;             // 1/s, below 0 while leaving
-    float open;                        // 1: no solid, as far as is known; 0: solid
-    float solid_time;                  // seconds since it was found to be a solid
-    float change;                      // relative change of E at its last renewal
-    double born;                       // when its newest light was sampled
-    double wanted;                     // when a window last held it
-    uint32_t version;                  // grows whenever what readers see changes
+    float confidence;      // [0, 1]
+    float confidence_rate; // 1/s, below 0 while leaving
+    float open;            // 1: no solid, as far as is known; 0: solid
+    float solid_time;      // seconds since it was found to be a solid
+    float change;          // relative change of E at its last renewal
+    double born;           // when its newest light was sampled
+    double wanted;         // when a window last held it
+    uint32_t version;      // grows whenever what readers see changes
     uint32_t next_free;
     void *hits;         // the sampler's
     uint32_t hits_face; // rays of them along an edge
@@ -61,7 +61,8 @@ typedef struct alpi_wish {
 struct alp_ambience {
     alp_context *context;
     alp_ambience_options options;
-    double unit; // metres: the cell of level 0
+    double unit;                         // metres: the cell of level 0
+    double bounds_min[3], bounds_max[3]; // metres: where light is wanted; infinite by default
     alpi_graph graph;
 
     alpi_anchor *anchors;
@@ -80,12 +81,13 @@ struct alp_ambience {
     alpi_wish *wishes; // sorted, most urgent last
     size_t wish_capacity;
     uint32_t wish_count;
-    bool planned;        // since the last update
-    double planned_time; // of the last plan; NaN before
-    double velocity[3];  // of the camera, smoothed
-    double rate;         // anchors per second that can be sampled, as far as was seen
-    uint32_t taken;      // anchors sampled since the last update
-    uint64_t hit_bytes;  // memory of kept hits
+    uint32_t plan_age;      // updates since the last plan
+    double planned_time;    // of that; NaN before
+    double planned_from[3]; // where the camera was
+    double velocity[3];     // of the camera, smoothed
+    double rate;            // anchors per second that can be sampled, as far as was seen
+    uint32_t taken;         // anchors sampled since the last update
+    uint64_t hit_bytes;     // memory of kept hits
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
 };
 
@@ -112,10 +114,13 @@ void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, 
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
-                       const float (*moments)[2]);
-void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor);
+                             const float (*moments)[2]);
+/// @param surface metres to the nearest surface, at least
+void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);
+/// Gives memory of anchors that are gone back. @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_ambience_compact(alp_ambience *ambience);
 /// Mean irradiance over all directions, mean of the channels.
 float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
 

@@ -123,10 +123,9 @@ static void put(alpi_light_pool *pool, uint32_t slot, const alpi_sh9 *radiance,
     }
 }
 
-/// Relative change of E by new light, against what readers see at the anchor now.
-static float find_change(const alp_ambience *a, const alpi_anchor *at, const alpi_sh9 *radiance)
+/// Largest difference of E between new light and what readers see at the anchor now.
+static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_sh9 *radiance)
 {
-    const float mean = alpi_ambience_mean(a->base);
     float before[ALPI_AMBIENCE_FLOATS], now[ALPI_AMBIENCE_FLOATS];
     memcpy(now, radiance->c, sizeof now);
     if (at->slot != ALPI_NO_SLOT) {
@@ -136,7 +135,28 @@ static float find_change(const alp_ambience *a, const alpi_anchor *at, const alp
         alpi_anchor_place(a, at, place);
         alpi_ambience_read(published(a), place, before);
     }
-    return mean > 0.0f ? find_difference(now, before) / mean : 0.0f;
+    return find_difference(now, before);
+}
+
+/// Seconds that new light takes: longer for large changes, unless the lighting changed. Where a
+/// fade is under way, it goes on at its speed at least: or renewals of still light would never end
+/// it.
+static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
+{
+    const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
+    const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
+    if (is_first(a)) {
+        return 0.0f;
+    }
+    if (at->stale_light) { // lamps or the sun moved
+        return least;
+    }
+    if (at->next == ALPI_NO_SLOT) {
+        return fade;
+    }
+    const float left = find_difference(a->nexts.light[at->next], a->lights.light[at->slot]);
+    const float longer = left > 0.0f ? fmaxf(jump / left, 1.0f) : 1.0f;
+    return fminf(fade, longer * at->fade_left);
 }
 
 /// Slots for new light. A first light takes the place of none.
@@ -161,11 +181,11 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
 {
     alpi_anchor *at = &a->anchors[anchor];
     const bool renewed = at->slot != ALPI_NO_SLOT && !is_first(a);
-    const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
+    const float jump = find_jump(a, at, radiance), mean = alpi_ambience_mean(a->base);
     at->pending = false;
-    at->change = find_change(a, at, radiance);
+    at->change = mean > 0.0f ? jump / mean : 0.0f;
+    const float fade = find_fade(a, at, jump);
     ALP_TRY(take_slots(a, at, renewed));
-    const float fade = is_first(a) ? 0.0f : fminf(fmaxf(at->change / FADE_RATE, least), most);
     if (renewed && fade > 0.0f) {
         put(&a->nexts, at->next, radiance, moments);
         at->fade_left = fade;
@@ -174,8 +194,12 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
         alpi_lights_give(&a->nexts, &at->next);
         at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     }
-    at->confidence = fade > 0.0f ? at->confidence : 1.0f;
-    at->confidence_rate = fade > 0.0f ? fmaxf(at->confidence_rate, 1.0f / fade) : 0.0f;
+    at->confidence = is_first(a) ? 1.0f : at->confidence;
+    if (at->confidence < 1.0f && !(at->confidence_rate > 0.0f)) { // it comes, or comes back
+        const float least = fmaxf((float)a->options.fade, 1e-3f);
+        const float longest = fmaxf(least, (float)a->options.lifetime);
+        at->confidence_rate = 1.0f / fminf(fmaxf(at->change / FADE_RATE, least), longest);
+    }
     at->state = ALPI_ANCHOR_LIT;
     at->leaving = at->stale_light = at->stale_trace = false;
     at->born = a->time;
@@ -185,11 +209,12 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     return ALP_OK;
 }
 
-void alpi_anchor_solid(alp_ambience *a, uint32_t anchor)
+void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
 {
     alpi_anchor *at = &a->anchors[anchor];
     at->pending = at->stale_light = at->stale_trace = false;
     at->born = a->time;
+    at->mean = surface;
     a->taken++;
     if (at->state != ALPI_ANCHOR_SOLID) {
         at->state = ALPI_ANCHOR_SOLID;

@@ -8,13 +8,13 @@ static const double BESIDE = 2.0, THING = 3.0; // metres
 
 double alpi_ground_height(const alp_scene *scene, const alpi_tracer *tracer, double x, double z)
 {
-    static const double around[PLACES][2] = {{0.0, 0.0},  {1.0, 0.0},  {-1.0, 0.0}, {0.0, 1.0},
-                                             {0.0, -1.0}, {0.7, 0.7},  {-0.7, 0.7}, {0.7, -0.7}};
+    static const double around[PLACES][2] = {{0.0, 0.0},  {1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0},
+                                             {0.0, -1.0}, {0.7, 0.7}, {-0.7, 0.7}, {0.7, -0.7}};
     const vec3 down = {0.0f, -1.0f, 0.0f};
     const float top = scene->bounds_max.y + 1.0f;
     alpi_rays rays;
     alpi_hits hits;
-    double heights[PLACES], lowest = INFINITY;
+    double heights[PLACES], lowest = HUGE_VAL;
     alpi_rays_clear(&rays);
     for (int i = 0; i < PLACES; i++) {
         const vec3 from = {(float)(x + BESIDE * around[i][0]), top,

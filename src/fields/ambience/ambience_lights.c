@@ -21,6 +21,21 @@ alp_result alpi_grow_tightly(alp_context *context, void **items, size_t *capacit
     return ALP_OK;
 }
 
+alp_result alpi_fit(alp_context *context, void **items, size_t *capacity, size_t needed,
+                    size_t size)
+{
+    if (*capacity > needed + needed / 2 + 64) { // shrinking may fail: then all stays
+        const size_t smaller = needed + needed / 8 + 8;
+        void *moved = alpi_reallocate(context, *items, smaller, size);
+        if (moved == NULL) {
+            return ALP_ERROR_OUT_OF_MEMORY;
+        }
+        *items = moved;
+        *capacity = smaller;
+    }
+    return alpi_grow_tightly(context, items, capacity, needed, size);
+}
+
 void alpi_lights_open(alp_context *context, bool visibility, alpi_light_pool *pool)
 {
     *pool = (alpi_light_pool){.context = context, .visibility = visibility, .free = ALPI_NO_SLOT};
@@ -71,15 +86,50 @@ void alpi_lights_copy(alpi_light_pool *to, uint32_t slot, const alpi_light_pool 
     }
 }
 
+static void blend(float *restrict to, const float *restrict from, int count, float share)
+{
+    for (int i = 0; i < count; i++) {
+        to[i] += share * (from[i] - to[i]);
+    }
+}
+
 void alpi_lights_blend(alpi_light_pool *to, uint32_t slot, const alpi_light_pool *from,
                        uint32_t other, float share)
 {
-    for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
-        float *light = &to->light[slot][i];
-        *light += share * (from->light[other][i] - *light);
+    blend(to->light[slot], from->light[other], ALPI_AMBIENCE_FLOATS, share);
+    if (to->visibility) {
+        blend(to->moments[slot][0], from->moments[other][0], 2 * ALPI_AMBIENCE_MOMENTS, share);
     }
-    for (int i = 0; i < 2 * ALPI_AMBIENCE_MOMENTS && to->visibility; i++) {
-        float *distance = &to->moments[slot][i / 2][i % 2];
-        *distance += share * (from->moments[other][i / 2][i % 2] - *distance);
+}
+
+alp_result alpi_lights_compact(alpi_light_pool *pool, uint32_t **slots, uint32_t count)
+{
+    bool *taken = ALPI_NEW(pool->context, bool, count);
+    if (taken == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
     }
+    for (uint32_t i = 0; i < count; i++) {
+        if (*slots[i] < count) {
+            taken[*slots[i]] = true;
+        }
+    }
+    uint32_t hole = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (*slots[i] < count) {
+            continue;
+        }
+        while (taken[hole]) {
+            hole++;
+        }
+        alpi_lights_copy(pool, hole, pool, *slots[i]);
+        *slots[i] = hole++;
+    }
+    alpi_release(pool->context, taken);
+    pool->end = count;
+    pool->free = ALPI_NO_SLOT;
+    ALP_TRY(alpi_fit(pool->context, (void **)&pool->light, &pool->capacity, count,
+                     sizeof *pool->light));
+    return pool->visibility ? alpi_fit(pool->context, (void **)&pool->moments,
+                                       &pool->moment_capacity, count, sizeof *pool->moments)
+                            : ALP_OK;
 }

@@ -14,7 +14,8 @@ typedef struct alpi_light_pool {
     alp_context *context;
     bool visibility;
     float (*light)[ALPI_AMBIENCE_FLOATS];
-    float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility: mean distance, of squares
+    float (
+        *moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility: mean distance, of squares
     size_t capacity, moment_capacity;
     uint32_t end, free, count; // free: first of a list; count: in use
 } alpi_light_pool;
@@ -34,5 +35,12 @@ void alpi_lights_blend(alpi_light_pool *to, uint32_t slot, const alpi_light_pool
 /// As alpi_grow, by an eighth at a time: memory of anchors is counted by its users.
 alp_result alpi_grow_tightly(alp_context *context, void **items, size_t *capacity, size_t needed,
                              size_t size);
+/// The same, and shrinks arrays of which over a third is not needed.
+alp_result alpi_fit(alp_context *context, void **items, size_t *capacity, size_t needed,
+                    size_t size);
+
+/// Moves slots so that the first `count` are in use, and gives memory back.
+/// @param slots [count] of the anchors that hold one; changed
+alp_result alpi_lights_compact(alpi_light_pool *pool, uint32_t **slots, uint32_t count);
 
 #endif

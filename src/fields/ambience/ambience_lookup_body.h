@@ -11,7 +11,7 @@
 enum { CORNERS = 8, SIDE = 8 };
 _Static_assert((int)ALPI_PACKET == (int)CORNERS, "a lane for each corner");
 /// Below this sum of weights, a level gives way to the next.
-static const float SCARCE = 0.1f;
+static const float SCARCE = 0.004f;
 /// A rest of confidence below this is left out.
 static const float NOTHING = 1e-6f;
 
@@ -206,8 +206,7 @@ static inline void find_seen(const point_search *p, uint32_t level, const level_
 // --- sums ----------------------------------------------------------------------------------------
 
 static inline void add_light(const point_search *p, const level_anchors *at,
-                             const float weight[CORNERS],
-                             float light[ALPI_AMBIENCE_FLOATS])
+                             const float weight[CORNERS], float light[ALPI_AMBIENCE_FLOATS])
 {
     for (int c = 0; c < CORNERS; c++) {
         if (at->anchor[c] != NULL) {

@@ -14,15 +14,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WAY_POINTS = 5 };
-static const double AHEAD = 1.0;   // seconds that are predicted
-static const double INERTIA = 0.3; // seconds that smooth the velocity
-// Cells of a window's radius, wide and narrow: in a volume, and flat.
-static const double RADII[2][2] = {{5.0, 3.0}, {12.0, 6.0}};
+enum { WAY_POINTS = 5, PLAN_UPDATES = 4 };
+static const double PLAN_TIME = 0.1;   // seconds that a plan serves at most
+static const double AHEAD = 1.0;       // seconds that are predicted
+static const double INERTIA = 0.3;     // seconds that smooth the velocity
+static const double MOST_CELLS = 15.0; // per second: finer cells pass before their light fades in
+static const double OUTSIDE = 2.0; // cells round the way that have anchors beyond the bounds too
+enum { RADII = 9 };
+/// Cells of a window's radius, the widest that there is room for: in a volume, and flat.
+static const double RADIUS[2][RADII] = {{24.0, 18.0, 14.0, 11.0, 9.0, 7.0, 5.0, 4.0, 3.0},
+                                        {48.0, 40.0, 32.0, 24.0, 20.0, 16.0, 12.0, 8.0, 6.0}};
 static const float RENEWAL = 0.6f;     // share of the lifetime from which on
 static const float URGENT = 0.85f;     // the same, before all that is missing
 static const double LEAST_RATE = 30.0; // anchors per second that any host samples
-static const double CROWDED = 0.6;     // share of the limit from which on others fade out early
+static const double CROWDED = 0.7;     // share of the limit from which on others fade out early
 static const float RELIGHT = 0.15f;    // share of the lifetime after which stale light is urgent
 
 /// What the plan of an update needs.
@@ -32,8 +37,9 @@ typedef struct plan {
     double way[WAY_POINTS][3]; // metres
     uint32_t way_count;
     double length, speed; // of the way; metres per second
-    double radius;
-    float mean; // E
+    double radius;        // of the window, cells
+    double count;         // anchors of windows so far
+    float mean;           // E
     alp_result result;
 } plan;
 
@@ -223,7 +229,7 @@ static void add_wish(plan *p, uint32_t level, const int32_t index[3], float urge
     alp_ambience *a = p->a;
     if (p->result == ALP_OK) {
         p->result = alpi_grow_tightly(a->context, (void **)&a->wishes, &a->wish_capacity,
-                              (size_t)a->wish_count + 1, sizeof *a->wishes);
+                                      (size_t)a->wish_count + 1, sizeof *a->wishes);
     }
     if (p->result == ALP_OK) {
         alpi_wish *wish = &a->wishes[a->wish_count++];
@@ -236,6 +242,44 @@ static void add_wish(plan *p, uint32_t level, const int32_t index[3], float urge
 static bool is_middle(const int32_t index[3])
 {
     return index[0] % 3 == 0 && index[1] % 3 == 0 && index[2] % 3 == 0;
+}
+
+/// Whether a place is where light is wanted, or within a cell of it.
+static bool is_within(const alp_ambience *a, const double place[3], double cell)
+{
+    bool within = true;
+    for (int k = 0; k < 3; k++) {
+        const bool flat = a->options.flat && k == 1;
+        within =
+            within &&
+            (flat || (place[k] > a->bounds_min[k] - cell && place[k] < a->bounds_max[k] + cell));
+    }
+    return within;
+}
+
+/// Whether a place is so deep in a solid that no open point reads it: an ancestor lies in a solid
+/// whose surface is farther than the place, and a cell's diagonal.
+static bool is_deep(const alp_ambience *a, uint32_t level, const int32_t index[3],
+                    const double place[3])
+{
+    const double diagonal = 1.7320508 * alpi_ambience_cell(a, level);
+    int32_t up[3] = {index[0], index[1], index[2]};
+    for (uint32_t l = level + 1; l <= a->graph.depth; l++) {
+        for (int k = 0; k < 3; k++) {
+            up[k] = alpi_graph_parent_index(up[k]);
+        }
+        const uint32_t node = alpi_graph_find(&a->graph, l, up);
+        const uint32_t anchor = node != ALPI_NO_NODE ? a->graph.nodes[node].anchor : ALPI_NO_ANCHOR;
+        if (anchor == ALPI_NO_ANCHOR || a->anchors[anchor].state != ALPI_ANCHOR_SOLID) {
+            continue;
+        }
+        double middle[3];
+        alpi_anchor_place(a, &a->anchors[anchor], middle);
+        if (distance(place, middle) + diagonal < (double)a->anchors[anchor].mean) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t points)
@@ -251,7 +295,8 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
     }
     const double away = way_distance(p, place, points) / cell;
     // Parents own the anchors of their middle children.
-    if (away > p->radius || (level < a->graph.depth && is_middle(index))) {
+    if (away > p->radius || (level < a->graph.depth && is_middle(index)) ||
+        (away > OUTSIDE && !is_within(a, place, cell))) {
         return;
     }
     const bool top = level + 1 >= a->graph.depth;
@@ -267,6 +312,9 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
         if (urgency > 0.0f) {
             add_wish(p, level, index, urgency);
         }
+        return;
+    }
+    if (is_deep(a, level, index, place)) {
         return;
     }
     const float interest = near * find_interest(p, place, cell);
@@ -289,12 +337,23 @@ static void make_room(alp_ambience *a)
     }
 }
 
-/// Anchors in the window of a level.
-static double window_count(const plan *p, double cell, double length)
+/// Anchors in the window of a level at most: those in its radius, in the bounds, and of coarse
+/// levels in the root.
+static double window_count(const plan *p, uint32_t level)
 {
-    const double r = p->radius;
-    return p->a->options.flat ? ALPI_PI * r * r + 2.0 * r * length / cell
-                              : ALPI_PI * r * r * (4.0 / 3.0 * r + length / cell);
+    const alp_ambience *a = p->a;
+    const double r = p->radius, cell = alpi_ambience_cell(a, level), length = p->length / cell;
+    const double children = a->options.flat ? 9.0 : 27.0;
+    const double root = 2.0 * pow(children, (double)a->graph.depth - (double)level);
+    double bounds = 1.0;
+    for (int k = 0; k < 3; k++) {
+        const double cells = (a->bounds_max[k] - a->bounds_min[k]) / cell + 2.0;
+        bounds *= a->options.flat && k == 1 ? 1.0 : fmax(cells, 1.0);
+    }
+    const double round = a->options.flat ? ALPI_PI * r * r + 2.0 * r * length
+                                         : ALPI_PI * r * r * (4.0 / 3.0 * r + length);
+    const double least = fmin(round, bounds);
+    return level + 2 >= a->graph.depth ? fmin(least, root) : least;
 }
 
 /// Whether a level with the plan's radius can be kept up at the camera's speed.
@@ -304,14 +363,30 @@ static bool is_kept_up(const plan *p, uint32_t level)
     const double cell = alpi_ambience_cell(a, level);
     const double across = a->options.flat ? 2.0 * p->radius : ALPI_PI * p->radius * p->radius;
     const double each_second = p->speed / cell * across;
-    const double room = (double)a->options.anchor_limit / 6.0;
-    return window_count(p, cell, p->length) <= room && each_second <= fmax(a->rate, LEAST_RATE);
+    const double count = p->count + window_count(p, level);
+    return p->speed <= MOST_CELLS * cell && count <= CROWDED * (double)a->options.anchor_limit &&
+           each_second <= fmax(a->rate, LEAST_RATE);
+}
+
+/// Chooses the radius of a level. Coarse levels have less wide windows, which leaves room for fine
+/// ones. @return whether there is one
+static bool choose_radius(plan *p, uint32_t level)
+{
+    const alp_ambience *a = p->a;
+    for (int i = level > 0 ? 6 : 0; i < RADII; i++) {
+        p->radius = RADIUS[a->options.flat][i];
+        if (is_kept_up(p, level)) {
+            p->count += window_count(p, level);
+            return true;
+        }
+    }
+    return false;
 }
 
 static void scan_window(plan *p, uint32_t level, uint32_t points)
 {
     const alp_ambience *a = p->a;
-    const double reach = p->radius * alpi_ambience_cell(a, level);
+    const double cell = alpi_ambience_cell(a, level), reach = p->radius * cell;
     double low[3], high[3];
     int32_t first[3], last[3], index[3];
     for (int k = 0; k < 3; k++) {
@@ -320,8 +395,13 @@ static void scan_window(plan *p, uint32_t level, uint32_t points)
             low[k] = fmin(low[k], p->way[i][k]);
             high[k] = fmax(high[k], p->way[i][k]);
         }
+        const double near_low = low[k] - OUTSIDE * cell, near_high = high[k] + OUTSIDE * cell;
         low[k] -= reach;
         high[k] += reach;
+        if (!a->options.flat || k != 1) {
+            low[k] = fmin(fmax(low[k], a->bounds_min[k] - cell), near_low);
+            high[k] = fmax(fmin(high[k], a->bounds_max[k] + cell), near_high);
+        }
     }
     if (!alpi_ambience_index(a, level, low, first) || !alpi_ambience_index(a, level, high, last)) {
         return;
@@ -352,18 +432,16 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
     plan p = {.a = a, .camera = camera, .mean = alpi_ambience_mean(a->base), .result = ALP_OK};
     int32_t index[3];
     a->wish_count = 0;
-    a->planned = true;
+    a->plan_age = 0;
+    memcpy(a->planned_from, camera->position, sizeof a->planned_from);
     predict_way(&p);
     uint32_t node;
     if (alpi_ambience_index(a, a->graph.depth, p.way[0], index)) { // the root grows to the camera
         ALP_TRY(alpi_graph_require(&a->graph, a->graph.depth, index, &node));
     }
-    for (uint32_t level = 0; level <= a->graph.depth; level++) {
-        bool kept_up = false;
-        for (int i = 0; i < 2 && !kept_up; i++) {
-            p.radius = RADII[a->options.flat][i];
-            kept_up = is_kept_up(&p, level);
-        }
+    for (uint32_t down = 0; down <= a->graph.depth; down++) {
+        const uint32_t level = a->graph.depth - down;
+        const bool kept_up = choose_radius(&p, level);
         if (kept_up || level + 1 >= a->graph.depth) {
             scan_window(&p, level, kept_up ? p.way_count : 1);
         }
@@ -377,12 +455,20 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 
 // --- choice --------------------------------------------------------------------------------------
 
+/// A plan serves some updates, while the camera stays in about its place and time moves.
+static bool is_plan_old(const alp_ambience *a, const alp_ambience_camera *camera)
+{
+    const bool warms_up = !(a->time > a->first_time);
+    return a->plan_age >= (warms_up ? 1 : PLAN_UPDATES) || a->time - a->planned_time > PLAN_TIME ||
+           (a->plan_age > 0 && distance(a->planned_from, camera->position) > 0.25 * a->unit);
+}
+
 alp_result alpi_ambience_choose(alp_ambience *a, const alp_ambience_camera *camera,
                                 uint32_t *anchor)
 {
     *anchor = ALPI_NO_ANCHOR;
     ALP_TRY(check_camera(a, camera));
-    if (!a->planned) {
+    if (is_plan_old(a, camera)) {
         ALP_TRY(make_plan(a, camera));
     }
     while (a->wish_count > 0) {

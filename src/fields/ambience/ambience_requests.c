@@ -138,7 +138,7 @@ alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id, uint32
 static void drop_void(alp_ambience *a, alpi_request_slot *slot, uint64_t word)
 {
     if (a->time - slot->opened > a->options.lifetime &&
-        atomic_compare_exchange_strong(&slot->word, &word, (word & ~(uint64_t)3u) | FREE)) {
+        atomic_compare_exchange_strong(&slot->word, &word, (word & ~(uint64_t)3u))) {
         a->anchors[slot->anchor].pending = false;
     }
 }
@@ -155,12 +155,12 @@ alp_result alpi_requests_collect(alp_ambience *a)
         const uint64_t word = atomic_load(&slot->word);
         if ((word & 3u) == ANSWERED) {
             if (slot->solid) {
-                alpi_anchor_solid(a, slot->anchor);
+                alpi_anchor_solid(a, slot->anchor, 0.0f);
             } else {
                 const alp_result one = alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
                 result = result == ALP_OK ? one : result;
             }
-            atomic_store(&slot->word, (word & ~(uint64_t)3u) | FREE);
+            atomic_store(&slot->word, (word & ~(uint64_t)3u));
         } else if ((word & 3u) == OPEN) {
             drop_void(a, slot, word);
         }

@@ -18,8 +18,12 @@
 enum { BATCH = 64, QUARTERS = 4 /* cost of a sample */, QUICK_FACE = 4 };
 /// Rays are aimed at emissive surfaces that are less than this share of all surfaces.
 static const double AIMED_AREA = 0.1;
-/// A cell in the window of the camera is about this share of its distance.
-static const float CELL_SCALE = 1.0f;
+/// An anchor nearer to a surface than this share of the finest cell lies on it.
+static const float ON_SURFACE = 1e-3f;
+/// Floors and walls often lie at whole numbers: the lattice is moved by this share of its cell.
+static const double BESIDE_PLANES[3] = {0.37, 0.43, 0.41};
+/// Hits are near each other within a quarter of this times their distance: about four rays apart.
+static const float CELL_SCALE = 2.0f;
 /// Radii of a sphere within which it changes light: beyond, it covers 1.6 % of the directions.
 static const double OCCLUDER_REACH = 4.0;
 
@@ -122,6 +126,18 @@ static alp_result start(alp_ambience_sampler *s)
     return s->moments == NULL ? ALP_ERROR_OUT_OF_MEMORY : make_lighting(s);
 }
 
+/// Beyond the scene there is no light that differs.
+static void fit_to_scene(alp_ambience *a, const alp_scene *scene)
+{
+    const vec3 low = scene->bounds_min, high = scene->bounds_max;
+    const float mins[3] = {low.x, low.y, low.z}, maxs[3] = {high.x, high.y, high.z};
+    for (int k = 0; k < 3; k++) {
+        a->bounds_min[k] = (double)mins[k];
+        a->bounds_max[k] = (double)maxs[k];
+        a->options.centre[k] += isnan(a->time) ? BESIDE_PLANES[k] * a->unit : 0.0;
+    }
+}
+
 alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *scene,
                                        const alp_ambience_sampler_options *options,
                                        alp_ambience_sampler **sampler)
@@ -146,6 +162,7 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         return result;
     }
     ambience->drop_hits = drop_hits;
+    fit_to_scene(ambience, scene);
     if (ambience->options.flat && ambience->options.height == NULL) {
         ambience->options.height = find_height;
         ambience->options.height_user = s;
@@ -360,8 +377,11 @@ static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambien
     work->samples += !p->traced;
     work->relit += p->traced;
     work->rays += p->traced ? 0 : alpi_sphere_hits_count(p->face);
-    if (!p->traced && p->value.behind > ALPI_FREE_BACKS) {
-        alpi_anchor_solid(a, anchor);
+    const float surface = fminf(p->value.front_distance, p->value.back_distance);
+    // Rays of an anchor on a surface may start on either side.
+    if (!p->traced &&
+        (p->value.behind > ALPI_FREE_BACKS || surface < ON_SURFACE * (float)a->unit)) {
+        alpi_anchor_solid(a, anchor, surface);
         if (a->anchors[anchor].hits != NULL) {
             drop_hits(a, &a->anchors[anchor]);
         }
@@ -445,4 +465,29 @@ alp_result alp_ambience_sample(alp_ambience_sampler *sampler, const alp_ambience
         *work = done;
     }
     return result;
+}
+
+alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
+                                     const alp_ambience_camera *camera, double time,
+                                     uint32_t bounces)
+{
+    enum { EACH = 4096, ROUNDS = 64 };
+    if (sampler == NULL || camera == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alp_ambience *a = sampler->ambience;
+    if (a->time > a->first_time) {
+        return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: time has moved from %g s to %g s; warm up before",
+                         a->first_time, a->time);
+    }
+    for (uint32_t bounce = 0; bounce < bounces; bounce++) {
+        alp_ambience_invalidate(a, false, NULL, NULL);
+        alp_ambience_work work = {.samples = 1};
+        for (int i = 0; i < ROUNDS && work.samples + work.relit > 0; i++) {
+            ALP_TRY(alp_ambience_update(a, time));
+            ALP_TRY(alp_ambience_sample(sampler, camera, EACH, 0.0, &work));
+        }
+    }
+    return alp_ambience_update(a, time);
 }

@@ -37,17 +37,15 @@ static alp_ambience_snapshot *find_writable(alp_ambience *ambience, alp_result *
 static alp_result make_room(const alp_ambience *a, alp_ambience_snapshot *s)
 {
     alp_context *context = a->context;
-    ALP_TRY(alpi_grow_tightly(context, (void **)&s->nodes, &s->node_capacity, a->graph.node_end,
-                              sizeof *s->nodes));
-    ALP_TRY(alpi_grow_tightly(context, (void **)&s->anchors, &s->anchor_capacity, a->anchor_end,
-                              sizeof *s->anchors));
-    ALP_TRY(alpi_grow_tightly(context, (void **)&s->light, &s->light_capacity, a->lights.end,
-                              sizeof *s->light));
-    if (a->lights.visibility) {
-        ALP_TRY(alpi_grow_tightly(context, (void **)&s->moments, &s->moment_capacity, a->lights.end,
-                                  sizeof *s->moments));
-    }
-    return ALP_OK;
+    ALP_TRY(alpi_fit(context, (void **)&s->nodes, &s->node_capacity, a->graph.node_end,
+                     sizeof *s->nodes));
+    ALP_TRY(alpi_fit(context, (void **)&s->anchors, &s->anchor_capacity, a->anchor_end,
+                     sizeof *s->anchors));
+    ALP_TRY(
+        alpi_fit(context, (void **)&s->light, &s->light_capacity, a->lights.end, sizeof *s->light));
+    return a->lights.visibility ? alpi_fit(context, (void **)&s->moments, &s->moment_capacity,
+                                           a->lights.end, sizeof *s->moments)
+                                : ALP_OK;
 }
 
 static float confidence_of(const alp_ambience *a, uint32_t node)
@@ -82,7 +80,7 @@ static float find_clear(const float (*moments)[2])
 {
     float least = moments[0][0];
     for (int i = 1; i < ALPI_AMBIENCE_MOMENTS; i++) {
-        least = fminf(least, moments[i][0]);
+        least = moments[i][0] < least ? moments[i][0] : least;
     }
     return least;
 }

@@ -5,7 +5,7 @@
 // the lattice round p have trilinear weights t. An anchor there has confidence f (it fades in and
 // out), openness o (0 in a solid), and visibility v (does it see p?). With w = t o (1 − f + f v):
 //
-//     S = Σ w,  F = Σ w f,  N = Σ w f c,  g = min(1, S / .1)
+//     S = Σ w,  F = Σ w f,  N = Σ w f c,  g = min(1, S / .004)
 //     light += rest · g · N / S,   rest ← rest · (1 − g F / S)
 //
 // A node that shares its parent's anchor has at most the largest confidence among its siblings: so

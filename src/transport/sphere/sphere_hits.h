@@ -80,10 +80,10 @@ typedef struct alpi_sphere_hits_point {
     uint32_t face;         // pixels along a face: multiple of 4, [4, ALPI_HITS_FACE_MOST]
     alpi_sphere_hit *hits; // NULL, or [6 face²]: kept, packet by packet (alpi_sphere_place_of)
     bool traced;           // hits are those of the same point, key and face: only relight
+    bool direct;           // light straight from lamps and suns is added (alpi_sphere_lamps_add)
+    float reach;           // metres: larger distances count as this in moments
     // NULL, or [ALPI_SPHERE_MOMENTS] out, as of alpi_sphere_job. Not written if `traced`.
     float (*moments)[2];
-    float reach; // metres: larger distances count as this in moments
-    bool direct; // light straight from lamps and suns is added, as alpi_sphere_lamps_add does
     // Out. The variance is estimated from the two halves of a chequerboard of rays.
     alpi_sphere_light value;
 } alpi_sphere_hits_point;

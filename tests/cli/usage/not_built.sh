@@ -11,7 +11,7 @@ for option in --bounces; do
     try render scene.glb -o out.png --with ao $option 1
 done
 try info scene.glb --pictures folder
-for command in lpv ambience view; do
+for command in lpv view; do
     try $command
     try $command scene.glb --help
 done

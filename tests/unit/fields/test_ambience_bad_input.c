@@ -8,7 +8,9 @@ TEST_CONTEXT(1);
 
 static alp_ambience *open_default(void)
 {
-    alp_ambience *a = world_open(context, NULL);
+    alp_ambience_options o = alp_ambience_options_default();
+    o.anchor_limit = 3000; // windows that are quick to plan
+    alp_ambience *a = world_open(context, &o);
     ASSERT_OK(context, alp_ambience_update(a, 0.0));
     return a;
 }
@@ -22,13 +24,13 @@ TEST(options_out_of_range_are_refused)
     }
     bad[0].struct_size = 0;
     bad[1].size = 0.0;
-    bad[2].size = NAN;
+    bad[2].size = (double)NAN;
     bad[3].depth = 0;
     bad[4].depth = 11;
     bad[5].lifetime = 0.0;
     bad[6].fade = -1.0;
     bad[7].anchor_limit = 63;
-    bad[8].centre[1] = INFINITY;
+    bad[8].centre[1] = HUGE_VAL;
     for (int i = 0; i < 9; i++) {
         alp_ambience *a = NULL;
         assert_int_equal(alp_ambience_create(context, &bad[i], &a), ALP_ERROR_INVALID_ARGUMENT);
@@ -43,8 +45,8 @@ TEST(time_does_not_run_backwards)
     ASSERT_OK(context, alp_ambience_update(a, 5.0));
     ASSERT_OK(context, alp_ambience_update(a, 5.0));
     assert_int_equal(alp_ambience_update(a, 4.9), ALP_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(alp_ambience_update(a, NAN), ALP_ERROR_INVALID_ARGUMENT);
-    assert_int_equal(alp_ambience_update(a, INFINITY), ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_ambience_update(a, (double)NAN), ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_ambience_update(a, HUGE_VAL), ALP_ERROR_INVALID_ARGUMENT);
     ASSERT_NEAR(alp_ambience_get_info(a).time, 5.0, 0.0);
     ASSERT_OK(context, alp_ambience_update(a, 6.0));
     alp_ambience_destroy(a);
@@ -68,7 +70,7 @@ TEST(a_camera_that_is_nowhere_is_refused)
         double *const numbers[9] = {&camera.position[0], &camera.position[1], &camera.position[2],
                                     &camera.velocity[0], &camera.velocity[1], &camera.velocity[2],
                                     &camera.forward[0],  &camera.forward[2],  &camera.vfov};
-        *numbers[i] = i % 2 == 0 ? NAN : INFINITY;
+        *numbers[i] = i % 2 == 0 ? (double)NAN : HUGE_VAL;
         assert_int_equal(alp_ambience_next(a, &camera, &request), ALP_ERROR_INVALID_ARGUMENT);
         assert_true(request.id == 0);
     }
@@ -81,7 +83,7 @@ TEST(look_ups_nowhere_are_black)
     const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
     world_warm(a, &camera, -1e9);
     const double p[4][3] = {
-        {NAN, 0.0, 0.0}, {0.0, INFINITY, 0.0}, {0.0, 0.0, 1e300}, {0.0, 0.0, 0.0}};
+        {(double)NAN, 0.0, 0.0}, {0.0, HUGE_VAL, 0.0}, {0.0, 0.0, 1e300}, {0.0, 0.0, 0.0}};
     const float n[4][3] = {
         {0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, NAN, 0.0f}};
     float e[4][3];
@@ -103,7 +105,7 @@ TEST(speed_lowers_the_depth)
         const alp_ambience_camera camera = {.velocity = {speeds[i], 0.0, 0.0}};
         world_warm(a, &camera, -1e9);
         const alp_ambience_info info = alp_ambience_get_info(a);
-        assert_in_range(info.anchors, 1, 4096);
+        assert_in_range(info.anchors, 1, 8192);
         finest[i] = (uint32_t)info.cell;
         alp_ambience_destroy(a);
     }

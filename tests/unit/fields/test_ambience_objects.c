@@ -178,14 +178,13 @@ TEST(a_patch_is_bilinear)
     assert_memory_equal(e, corners[2], sizeof e);
 }
 
-TEST(places_that_are_not_finite_are_black)
+TEST(what_is_not_finite_is_black)
 {
     alp_ambience *a = world_open(context, NULL);
     const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
-    const double low[3] = {-1.0, (double)NAN, -1.0}, high[3] = {1.0, 1.0, 1.0},
-                 far = (double)INFINITY;
+    const double low[3] = {-1.0, (double)NAN, -1.0}, high[3] = {1.0, 1.0, 1.0}, far = HUGE_VAL;
     const double corners[4][3] = {
-        {NAN, 0.0, 0.0}, {1.0, far, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}};
+        {(double)NAN, 0.0, 0.0}, {1.0, far, 0.0}, {0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}};
     const float normals[4][3] = {
         {0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, NAN, 0.0f}, {0.0f, 1.0f, 0.0f}};
     float cube[6][3], e[4][3];

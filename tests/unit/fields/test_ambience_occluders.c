@@ -26,6 +26,11 @@ static air open_air(void)
     o.face = o.first_face = 8;
     ASSERT_OK(context, alp_ambience_create(context, &a, &v.ambience));
     ASSERT_OK(context, alp_ambience_sampler_create(v.ambience, v.scene, &o, &v.sampler));
+    for (int k = 0; k < 3; k++) { // anchors at whole metres, far beyond the specks
+        v.ambience->options.centre[k] = 0.0;
+        v.ambience->bounds_min[k] = -HUGE_VAL;
+        v.ambience->bounds_max[k] = HUGE_VAL;
+    }
     return v;
 }
 
@@ -115,7 +120,7 @@ TEST(spheres_that_are_none_are_refused)
                               {0.0, 0.0, 0.0, -1.0},
                               {(double)NAN, 0.0, 0.0, 1.0},
                               {0.0, 1e300, 0.0, 1.0},
-                              {0.0, 0.0, 0.0, (double)INFINITY}};
+                              {0.0, 0.0, 0.0, HUGE_VAL}};
     const double many[17][4] = {{0.0, 0.0, 0.0, 1.0}};
     air v = open_air();
     for (int i = 0; i < 5; i++) {

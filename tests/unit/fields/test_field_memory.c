@@ -236,3 +236,25 @@ TEST_WITH_CONTEXT(free_points_lie_in_free_air, 1)
     assert_true(vec3_length(sum) < 0.1f * COUNT); // of all directions
     alp_scene_destroy(scene);
 }
+
+TEST_WITH_CONTEXT(free_points_near_lie_in_their_ball, 1)
+{
+    enum { COUNT = 200 };
+    static float p[COUNT][3], n[COUNT][3];
+    const float corner[3] = {0.1f, 0.1f, 0.1f}, outside[3] = {9.0f, 0.0f, 0.0f};
+    const float broken[3] = {NAN, 0.0f, 0.0f};
+    alp_scene *scene = field_room(context, (vec3){3.0f, 3.0f, 3.0f}, 0.5f, 1.0f);
+    ASSERT_OK(context, alp_scene_free_points_near(scene, corner, 1.0f, 1, COUNT, p, n));
+    for (int i = 0; i < COUNT; i++) {
+        const vec3 to = vec3_sub(vec3_load(p[i]), vec3_load(corner));
+        assert_true(vec3_length(to) <= 1.0f);
+        assert_true(p[i][0] >= -1e-4f && p[i][1] >= -1e-4f && p[i][2] >= -1e-4f);
+        ASSERT_NEAR(vec3_length(vec3_load(n[i])), 1.0, 1e-5);
+    }
+    const alp_result bad = ALP_ERROR_INVALID_ARGUMENT;
+    assert_int_equal(alp_scene_free_points_near(scene, outside, 1.0f, 1, COUNT, p, n), bad);
+    assert_int_equal(alp_scene_free_points_near(scene, broken, 1.0f, 1, COUNT, p, n), bad);
+    assert_int_equal(alp_scene_free_points_near(scene, corner, 0.0f, 1, COUNT, p, n), bad);
+    assert_int_equal(alp_scene_free_points_near(scene, corner, NAN, 1, COUNT, p, n), bad);
+    alp_scene_destroy(scene);
+}

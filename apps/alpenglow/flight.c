@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "flight.h"
+
+#include "points.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 8, NEEDED = 7, POINT_LIMIT = 1 << 20, MESSAGE_SIZE = 400 };
+
+static const double DEFAULT_VFOV = 60.0; // degrees
+
+static double distance(const double a[3], const double b[3])
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/// @param n    [COLUMNS], `count` of them read
+/// @param rest what follows them
+static const char *fault_of(const double *n, int count, const char *rest)
+{
+    if (count < NEEDED) {
+        return "need seven numbers: t,px,py,pz,tx,ty,tz, and vfov if wanted";
+    }
+    if (rest[strspn(rest, ",; \t\r\n")] != '\0') {
+        return "something follows the numbers; give t,px,py,pz,tx,ty,tz, and vfov if wanted";
+    }
+    for (int k = 0; k < count; k++) {
+        if (!isfinite(n[k]) || fabs(n[k]) > (k == 0 ? 1e9 : 1e15)) {
+            return k == 0 ? "the time is not finite, or beyond 1e9 s; give seconds"
+                          : "a number is not finite, or beyond 1e15; give metres";
+        }
+    }
+    if (!(distance(n + 1, n + 4) > 0.0)) {
+        return "the target is the position; give another point to look at";
+    }
+    if (count == COLUMNS && !(n[7] >= 1e-3 && n[7] <= 179.0)) {
+        return "vfov is out of range; give 0.001 to 179 degrees";
+    }
+    return NULL;
+}
+
+static flight_point make_point(const double n[COLUMNS], const double origin[3])
+{
+    flight_point p = {.time = n[0], .vfov = n[7] * (M_PI / 180.0)};
+    for (int k = 0; k < 3; k++) {
+        p.position[k] = n[1 + k] - origin[k];
+        p.target[k] = n[4 + k] - origin[k];
+    }
+    return p;
+}
+
+static const char *keep(flight *f, const flight_point *point, uint32_t *room)
+{
+    if (f->count > 0 && !(point->time > f->points[f->count - 1].time)) {
+        return "the time is not after that of the line before; give times that rise";
+    }
+    if (f->count == POINT_LIMIT) {
+        return "too many lines, need 1048576 or fewer; leave some out";
+    }
+    if (f->count == *room) {
+        *room = *room > 0 ? 2 * *room : 64;
+        f->points = allocate_or_exit(f->points, *room * sizeof *f->points);
+    }
+    f->points[f->count++] = *point;
+    return NULL;
+}
+
+static int read_lines(FILE *file, const char *path, const double origin[3], flight *f)
+{
+    char *line = NULL;
+    size_t size = 0;
+    uint32_t room = 0;
+    int code = EXIT_DONE;
+    for (unsigned long number = 1; code == EXIT_DONE && getline(&line, &size, file) >= 0;
+         number++) {
+        double n[COLUMNS] = {[7] = DEFAULT_VFOV};
+        const char *start = line + strspn(line, " \t\r\n"), *end = start;
+        if (*start == '\0' || *start == '#' || (f->count == 0 && points_are_names(start))) {
+            continue;
+        }
+        const int count = points_numbers(start, n, COLUMNS, &end);
+        const char *fault = fault_of(n, count, end);
+        if (fault == NULL) {
+            n[7] = count < COLUMNS ? DEFAULT_VFOV : n[7];
+            const flight_point point = make_point(n, origin);
+            fault = keep(f, &point, &room);
+        }
+        code = fault != NULL ? points_refuse(path, number, fault) : EXIT_DONE;
+    }
+    free(line);
+    return code;
+}
+
+int flight_read(const char *path, const double origin[3], flight *f)
+{
+    char fault[MESSAGE_SIZE];
+    const bool input = strcmp(path, "-") == 0;
+    *f = (flight){0};
+    FILE *file = input ? stdin : fopen(path, "r");
+    if (file == NULL) {
+        snprintf(fault, sizeof fault, "%s: cannot be read", path);
+        return failure(fault);
+    }
+    int code = read_lines(file, path, origin, f);
+    if (!input) {
+        fclose(file);
+    }
+    if (code == EXIT_DONE && f->count == 0) {
+        snprintf(fault, sizeof fault,
+                 "%s: holds no flight; give lines of t,px,py,pz,tx,ty,tz[,vfov]", path);
+        code = failure(fault);
+    }
+    return code;
+}
+
+void flight_clear(flight *f)
+{
+    free(f->points);
+    *f = (flight){0};
+}
+
+double flight_start(const flight *f)
+{
+    return f->points[0].time;
+}
+
+double flight_end(const flight *f)
+{
+    return f->points[f->count - 1].time + (f->count == 1 ? FLIGHT_STAND : 0);
+}
+
+/// Index of the last point at or before a time inside the flight.
+static uint32_t find_leg(const flight *f, double time)
+{
+    uint32_t low = 0, high = f->count - 1;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (f->points[middle].time <= time) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static flight_camera stand(const flight_point *p)
+{
+    flight_camera c = {.vfov = p->vfov};
+    memcpy(c.position, p->position, sizeof c.position);
+    memcpy(c.target, p->target, sizeof c.target);
+    return c;
+}
+
+flight_camera flight_at(const flight *f, double time)
+{
+    const flight_point *last = &f->points[f->count - 1];
+    if (time < f->points[0].time) {
+        return stand(&f->points[0]);
+    }
+    if (time >= last->time) {
+        return stand(last);
+    }
+    const flight_point *a = &f->points[find_leg(f, time)], *b = a + 1;
+    const double length = b->time - a->time, t = (time - a->time) / length;
+    flight_camera c = {.vfov = a->vfov + t * (b->vfov - a->vfov)};
+    for (int k = 0; k < 3; k++) {
+        c.position[k] = a->position[k] + t * (b->position[k] - a->position[k]);
+        c.target[k] = a->target[k] + t * (b->target[k] - a->target[k]);
+        c.velocity[k] = (b->position[k] - a->position[k]) / length;
+    }
+    if (!(distance(c.position, c.target) > 0.0)) { // between lines that look at each other
+        memcpy(c.target, b->target, sizeof c.target);
+    }
+    return c;
+}
+
+alp_camera flight_view(const flight_camera *c)
+{
+    alp_camera view = {.vertical_fov = (float)c->vfov};
+    // Looking straight up or down, +Y cannot be up.
+    const double length = distance(c->position, c->target);
+    const bool vertical = fabs(c->target[1] - c->position[1]) > 0.9999 * length;
+    for (int k = 0; k < 3; k++) {
+        view.position[k] = (float)c->position[k];
+        view.target[k] = (float)c->target[k];
+    }
+    view.up[1] = vertical ? 0.0f : 1.0f;
+    view.up[2] = vertical ? -1.0f : 0.0f;
+    return view;
+}
