@@ -211,3 +211,28 @@ TEST(strengths_that_are_none_are_refused)
     alp_field_destroy(field);
     alp_ambience_destroy(a);
 }
+
+/// Each allocation fails once; snapshots are given back.
+TEST(memory_of_layers_that_runs_out)
+{
+    static const float ones[2] = {1.0f, 1.0f};
+    int left = 1 << 30, steps = 0;
+    alp_context *failing = test_context_failing(&left);
+    alp_ambience *a = world_open(failing, NULL);
+    alp_ambience *const layers[2] = {a, a};
+    alp_field *field = NULL;
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    for (; result != ALP_OK; steps++) {
+        left = steps;
+        result = alp_field_create_ambience_layers(a, layers, ones, 2, &field);
+        assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && field == NULL));
+    }
+    left = 1 << 30;
+    assert_int_equal(steps, 5);
+    alp_field_destroy(field);
+    for (uint32_t i = 0; i < a->snapshots.count; i++) {
+        assert_int_equal(atomic_load(&a->snapshots.all[i]->readers), 0);
+    }
+    alp_ambience_destroy(a);
+    alp_context_destroy(failing);
+}

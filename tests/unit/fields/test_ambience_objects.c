@@ -178,7 +178,7 @@ TEST(a_patch_is_bilinear)
     assert_memory_equal(e, corners[2], sizeof e);
 }
 
-TEST(places_that_are_not_finite_are_black)
+TEST(what_is_not_finite_is_black)
 {
     alp_ambience *a = world_open(context, NULL);
     const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
