@@ -68,7 +68,8 @@ ALP_API void alp_ambience_destroy(alp_ambience *ambience);
 /// Moves to a time: fades new light in and expired light out, prunes branches without light, and
 /// publishes a snapshot.
 /// @param time seconds, finite, not before the last
-/// @return ALP_OK; INVALID_ARGUMENT (nothing changes); OUT_OF_MEMORY (the old snapshot stays)
+/// @return ALP_OK; INVALID_ARGUMENT (nothing changes); OUT_OF_MEMORY (the old snapshot stays);
+///         LIMIT (readers and fields hold all of 16 snapshots: the old one stays)
 ALP_API ALP_NODISCARD alp_result alp_ambience_update(alp_ambience *ambience, double time);
 
 /// Where the camera is and goes.
@@ -236,7 +237,8 @@ typedef struct alp_ambience_work {
 } alp_ambience_work;
 
 /// Samples the anchors that alp_ambience_next wants, on all workers of the context.
-/// @param samples      anchors at most; what relights costs a half
+/// @param samples      work, in anchors sampled by all rays; relighting costs a half, the first
+///                     sample of an anchor a quarter
 /// @param milliseconds 0, or stop after about so long: then light depends on the clock
 /// @param work         NULL, or out
 /// @return as alp_ambience_next

@@ -165,7 +165,7 @@ void alp_ambience_destroy(alp_ambience *a)
 
 // --- update --------------------------------------------------------------------------------------
 
-/// Mean of all anchors, by confidence and the volume of their cells.
+/// Mean of all anchors, by confidence and the volume of their cells; the last one without any.
 static void find_base(alp_ambience *a)
 {
     double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
@@ -182,7 +182,7 @@ static void find_base(alp_ambience *a)
         total += w;
     }
     for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
-        a->base[k] = total > 0.0 ? (float)(sums[k] / total) : 0.0f;
+        a->base[k] = total > 0.0 ? (float)(sums[k] / total) : a->base[k];
     }
 }
 
@@ -277,7 +277,7 @@ alp_ambience_info alp_ambience_get_info(const alp_ambience *a)
     info.bytes = sizeof *a + shots + own + a->graph.node_capacity * sizeof *a->graph.nodes +
                  (a->lights.capacity + a->nexts.capacity) * sizeof *a->lights.light +
                  a->anchor_capacity * sizeof *a->anchors + a->wish_capacity * sizeof *a->wishes +
-                 a->hit_bytes;
+                 a->hit_bytes + alpi_requests_bytes();
     info.time = a->time;
     info.cell = finest < ALPI_GRAPH_LEVELS ? alpi_ambience_cell(a, finest) : 0.0;
     return info;

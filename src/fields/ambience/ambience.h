@@ -43,7 +43,7 @@ typedef struct alpi_anchor {
     float change;          // relative change of E at its last renewal
     double born;           // when its newest light was sampled
     double wanted;         // when a window last held it
-    uint32_t version;      // grows whenever what readers see changes
+    uint32_t version;      // new whenever what readers see changes
     uint32_t next_free;
     void *hits;         // the sampler's
     uint32_t hits_face; // rays of them along an edge
@@ -68,10 +68,11 @@ struct alp_ambience {
     alpi_anchor *anchors;
     size_t anchor_capacity;
     uint32_t anchor_end, free_anchor, anchor_count;
+    uint32_t version_serial; // of anchors
     alpi_light_pool lights, nexts;
 
     alpi_request_slot *slots;
-    uint32_t slot_serial;
+    uint64_t slot_serial;
     bool requests_open;
 
     double time, first_time; // NaN before the first update
@@ -132,6 +133,7 @@ uint64_t alpi_request_open(alp_ambience *ambience, uint32_t anchor);
 /// Gives answers to their anchors, and drops requests that are too old.
 /// @return ALP_OK; OUT_OF_MEMORY: some answers are lost, and their anchors are wanted again
 alp_result alpi_requests_collect(alp_ambience *ambience);
+uint64_t alpi_requests_bytes(void);
 uint32_t alpi_requests_count(const alp_ambience *ambience);
 
 // --- planning ------------------------------------------------------------------------------------

@@ -32,9 +32,8 @@ alp_result alpi_anchor_create(alp_ambience *a, uint32_t node, uint32_t *anchor)
     }
     const alpi_graph_node *top = &a->graph.nodes[alpi_graph_top(&a->graph, node)];
     alpi_anchor *new = &a->anchors[made];
-    const uint32_t version = new->version;
     memset(new, 0, sizeof *new);
-    new->version = version + 1;
+    new->version = ++a->version_serial;
     memcpy(new->index, top->index, sizeof new->index);
     new->level = top->level;
     new->state = ALPI_ANCHOR_EMPTY;
@@ -195,7 +194,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
         at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     }
     at->confidence = is_first(a) ? 1.0f : at->confidence;
-    if (at->confidence < 1.0f && !(at->confidence_rate > 0.0f)) { // it comes, or comes back
+    if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
         const float least = fmaxf((float)a->options.fade, 1e-3f);
         const float longest = fmaxf(least, (float)a->options.lifetime);
         at->confidence_rate = 1.0f / fminf(fmaxf(at->change / FADE_RATE, least), longest);
@@ -204,7 +203,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     at->leaving = at->stale_light = at->stale_trace = false;
     at->born = a->time;
     at->open = 1.0f;
-    at->version++;
+    at->version = ++a->version_serial;
     a->taken++;
     return ALP_OK;
 }
@@ -226,7 +225,7 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
             at->open = at->confidence = 0.0f;
             at->solid_time = FLT_MAX;
         }
-        at->version++;
+        at->version = ++a->version_serial;
     }
 }
 
@@ -249,16 +248,16 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
         alpi_lights_give(&a->nexts, &at->next);
     }
     at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
-    at->version++;
+    at->version = ++a->version_serial;
 }
 
-static void fade_confidence(alpi_anchor *at, float step)
+static void fade_confidence(alp_ambience *a, alpi_anchor *at, float step)
 {
     const float limit = at->confidence_rate < 0.0f ? 0.0f : 1.0f;
     if (at->confidence_rate != 0.0f && at->confidence != limit) {
         const float moved = at->confidence + at->confidence_rate * step;
         at->confidence = limit > 0.0f ? fminf(moved, 1.0f) : fmaxf(moved, 0.0f);
-        at->version++;
+        at->version = ++a->version_serial;
     }
 }
 
@@ -270,7 +269,7 @@ static float loss_without(const alp_ambience *a, const alpi_anchor *at)
 }
 
 /// Closes a solid, or opens it again when it has not been renewed for long.
-static void step_solid(const alp_ambience *a, alpi_anchor *at, float step)
+static void step_solid(alp_ambience *a, alpi_anchor *at, float step)
 {
     const float fade = fmaxf((float)a->options.fade, 1.0f) * 2.0f;
     at->leaving = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
@@ -279,7 +278,7 @@ static void step_solid(const alp_ambience *a, alpi_anchor *at, float step)
     if (now != at->solid_time) {
         at->solid_time = now;
         at->open = solid_openness(now / fade);
-        at->version++;
+        at->version = ++a->version_serial;
     }
 }
 
@@ -302,7 +301,7 @@ void alpi_anchors_step(alp_ambience *a, double step)
         if (at->state == ALPI_ANCHOR_FREE) {
             continue;
         }
-        fade_confidence(at, dt);
+        fade_confidence(a, at, dt);
         if (at->state == ALPI_ANCHOR_SOLID) {
             if (!(at->confidence > 0.0f)) {
                 alpi_lights_give(&a->lights, &at->slot);

@@ -32,9 +32,8 @@ static alp_result compact_anchors(alp_ambience *a)
         if (hole == last || from->pending) {
             break;
         }
-        const uint32_t version = a->anchors[hole].version;
         a->anchors[hole] = *from;
-        a->anchors[hole].version = (version > from->version ? version : from->version) + 1;
+        a->anchors[hole].version = ++a->version_serial;
         alpi_graph_set_anchor(&a->graph, alpi_graph_find(&a->graph, from->level, from->index),
                               hole);
         from->state = ALPI_ANCHOR_FREE;
@@ -55,14 +54,14 @@ static alp_result compact_lights(alp_ambience *a, alpi_light_pool *pool, bool ne
 {
     uint32_t count = 0, **slots = ALPI_NEW(a->context, uint32_t *, pool->count);
     if (slots == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+        return ALP_OK; // all stays
     }
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         alpi_anchor *at = &a->anchors[i];
         uint32_t *slot = next ? &at->next : &at->slot;
         if (at->state != ALPI_ANCHOR_FREE && *slot != ALPI_NO_SLOT) {
             slots[count++] = slot;
-            at->version++;
+            at->version = ++a->version_serial;
         }
     }
     const alp_result result = alpi_lights_compact(pool, slots, count);

@@ -28,7 +28,7 @@ alp_result alpi_fit(alp_context *context, void **items, size_t *capacity, size_t
         const size_t smaller = needed + needed / 8 + 8;
         void *moved = alpi_reallocate(context, *items, smaller, size);
         if (moved == NULL) {
-            return ALP_ERROR_OUT_OF_MEMORY;
+            return ALP_OK;
         }
         *items = moved;
         *capacity = smaller;
@@ -106,7 +106,7 @@ alp_result alpi_lights_compact(alpi_light_pool *pool, uint32_t **slots, uint32_t
 {
     bool *taken = ALPI_NEW(pool->context, bool, count);
     if (taken == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+        return ALP_OK; // all stays
     }
     for (uint32_t i = 0; i < count; i++) {
         if (*slots[i] < count) {

@@ -30,7 +30,7 @@ static const double LEAST_RATE = 30.0; // anchors per second that any host sampl
 static const double CROWDED = 0.7;     // share of the limit from which on others fade out early
 static const float RELIGHT = 0.15f;    // share of the lifetime after which stale light is urgent
 
-/// What the plan of an update needs.
+/// A plan while it is made.
 typedef struct plan {
     alp_ambience *a;
     const alp_ambience_camera *camera;
@@ -103,6 +103,7 @@ static void predict_way(plan *p)
     a->planned_time = a->time;
     for (int k = 0; k < 3; k++) {
         a->velocity[k] = c->velocity[k] + keep * (a->velocity[k] - c->velocity[k]);
+        a->velocity[k] = isfinite(a->velocity[k]) ? a->velocity[k] : 0.0;
     }
     p->way_count = known ? WAY_POINTS : 2;
     p->length = 0.0;

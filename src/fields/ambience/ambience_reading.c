@@ -2,7 +2,6 @@
 // The public look-ups of a snapshot.
 #include "fields/ambience/ambience_snapshot.h"
 
-#include <math.h>
 #include <string.h>
 
 bool alpi_ambience_read(const alp_ambience_snapshot *snapshot, const double position[3],
@@ -21,8 +20,7 @@ vec3 alpi_ambience_irradiance_at(const alp_ambience_snapshot *snapshot, const do
         return (vec3){0.0f, 0.0f, 0.0f};
     }
     memcpy(radiance.c, light, sizeof light);
-    const vec3 e = alpi_sh9_irradiance(&radiance, normal);
-    return (vec3){fmaxf(e.x, 0.0f), fmaxf(e.y, 0.0f), fmaxf(e.z, 0.0f)};
+    return alpi_sh9_irradiance(&radiance, normal);
 }
 
 void alp_ambience_coefficients(const alp_ambience_snapshot *snapshot, const double position[3],

@@ -9,10 +9,12 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { SLOTS = 1024, SLOT_BITS = 10, SAMPLES_MOST = 1 << 12 };
+enum { SLOTS = 256, SLOT_BITS = 8, SAMPLES_MOST = 1 << 12 };
 
 /// Low bits of a slot's word: where it is; the others: its serial, which a request's id holds too.
 enum { FREE = 0, OPEN, TAKEN, ANSWERED, STATE_BITS = 2 };
+
+static const float LARGEST = 1e30f; // coefficient: sums stay finite
 
 struct alpi_request_slot {
     _Atomic(uint64_t) word; // serial << STATE_BITS | state
@@ -28,6 +30,11 @@ alp_result alpi_requests_create(alp_ambience *a)
     return a->slots != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
 }
 
+uint64_t alpi_requests_bytes(void)
+{
+    return SLOTS * sizeof(alpi_request_slot);
+}
+
 uint32_t alpi_requests_count(const alp_ambience *a)
 {
     uint32_t count = 0;
@@ -40,12 +47,12 @@ uint32_t alpi_requests_count(const alp_ambience *a)
 uint64_t alpi_request_open(alp_ambience *a, uint32_t anchor)
 {
     for (uint32_t k = 0; k < SLOTS; k++) {
-        const uint32_t i = (a->slot_serial + k) % SLOTS;
+        const uint32_t i = ((uint32_t)a->slot_serial + k) % SLOTS;
         alpi_request_slot *slot = &a->slots[i];
         if ((atomic_load(&slot->word) & 3u) != FREE) {
             continue;
         }
-        const uint64_t serial = (uint64_t)++a->slot_serial << SLOT_BITS | i;
+        const uint64_t serial = ++a->slot_serial << SLOT_BITS | i;
         slot->anchor = anchor;
         slot->opened = a->time;
         slot->solid = false;
@@ -79,9 +86,10 @@ alp_result alp_ambience_submit(alp_ambience *ambience, uint64_t id, const alp_sh
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
-        if (!isfinite(radiance->c[i / 3][i % 3])) {
+        if (!(fabsf(radiance->c[i / 3][i % 3]) <= LARGEST)) {
             return alpi_fail(ambience->context, ALP_ERROR_INVALID_ARGUMENT,
-                             "ambience: coefficient %d of request %llu is not finite; the request "
+                             "ambience: coefficient %d of request %llu is not finite, or above "
+                             "1e30; the request "
                              "stays open",
                              i / 3, (unsigned long long)id);
         }

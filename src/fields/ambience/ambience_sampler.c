@@ -64,6 +64,17 @@ static void drop_hits(alp_ambience *ambience, alpi_anchor *anchor)
     anchor->hits = NULL;
 }
 
+/// Hits are of one scene.
+static void drop_all_hits(alp_ambience *a)
+{
+    for (uint32_t i = 0; i < a->anchor_end; i++) {
+        alpi_anchor *at = &a->anchors[i];
+        if (at->state != ALPI_ANCHOR_FREE && at->hits != NULL) {
+            drop_hits(a, at);
+        }
+    }
+}
+
 static alp_result check_options(const alp_ambience_sampler_options *o, const alp_scene *scene)
 {
     const uint32_t faces[2] = {o->face, o->first_face};
@@ -161,6 +172,7 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         alp_ambience_sampler_destroy(s);
         return result;
     }
+    drop_all_hits(ambience);
     ambience->drop_hits = drop_hits;
     fit_to_scene(ambience, scene);
     if (ambience->options.flat && ambience->options.height == NULL) {
@@ -181,6 +193,7 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
         s->ambience->options.height_user = NULL;
     }
     alp_context *context = s->scene->context;
+    drop_all_hits(s->ambience);
     clear_lighting(s);
     alpi_release(context, s->moments);
     alp_scene_destroy(s->simple);
@@ -415,6 +428,8 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         a->anchors[s->anchors[i]].pending = false;
         if (result == ALP_OK) {
             result = take_light(s, i, work);
+        } else if (s->points[i].hits != NULL && !s->points[i].traced) { // not all were traced
+            drop_hits(a, &a->anchors[s->anchors[i]]);
         }
     }
     return result;
@@ -446,7 +461,7 @@ alp_result alp_ambience_sample(alp_ambience_sampler *sampler, const alp_ambience
     const double started = alpi_seconds();
     const uint32_t workers = alp_context_worker_count(sampler->scene->context);
     const bool timed = milliseconds > 0.0;
-    const uint32_t most = timed && 4 * workers < BATCH ? 4 * workers : BATCH;
+    const uint32_t most = timed && workers < BATCH ? workers : BATCH;
     int64_t quarters = (int64_t)samples * QUARTERS;
     alp_result result = ALP_OK;
     uint32_t count = 1;
@@ -474,7 +489,7 @@ alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     alp_ambience *a = sampler->ambience;
-    if (a->time > a->first_time) {
+    if (a->time > a->first_time || (!isnan(a->time) && time != a->time)) {
         return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
                          "ambience: time has moved from %g s to %g s; warm up before",
                          a->first_time, a->time);

@@ -80,10 +80,10 @@ uint64_t alpi_snapshots_bytes(const alp_ambience *ambience, uint64_t *moments);
 /// Radiance coefficients at a point.
 /// @param normal NULL, or [3] unit, finite: anchors are seen or not from a quarter of their cell
 ///               above the surface there, so that those behind it do not count
-/// @return false, with black: not finite, or no light at all
+/// @return false, with black: not finite, or beyond the lattice
 bool alpi_ambience_read(const alp_ambience_snapshot *snapshot, const double position[3],
                         const float *normal, float light[ALPI_AMBIENCE_FLOATS]);
-/// E [W·m⁻²] ≥ 0 at a point with a normal; black where either is not finite.
+/// E [W·m⁻²] at a point with a normal, which may be below 0; black where either is not finite.
 vec3 alpi_ambience_irradiance_at(const alp_ambience_snapshot *snapshot, const double position[3],
                                  vec3 normal);
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # render and sample with the ambience volume after a flight
 printf '0,.1,.45,.4,.28,.27,0\n2,.45,.45,.4,.28,.27,0\n' >flight.csv
-flight="--with ambience --path flight.csv --fps 10 --budget 40 -q"
+flight="--with ambience --path flight.csv --fps 10 --budget 40 --anchors 300 -q"
 printf '.28,.27,.28,0,1,0\n.28,.27,.28,0,-1,0\n' >points.csv
 alpenglow sample builtin:cornell $flight --at points.csv |
     awk -F , 'NR == 2 {up = $7} NR == 3 {print (up > $7 ? "up" : "down"), NF}'

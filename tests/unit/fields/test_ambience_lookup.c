@@ -401,3 +401,27 @@ TEST(a_large_change_fades_for_longer)
     ASSERT_NEAR(lone_light(a, 18.0), 2.5, 1e-5);
     alp_ambience_destroy(a);
 }
+
+/// Light that arrives just after the old light expired takes its place.
+TEST(late_light_stays)
+{
+    alp_ambience_options o = small_options();
+    o.depth = 1;
+    o.lifetime = 10.0;
+    alp_ambience *a = world_open(context, &o);
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}}};
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    ASSERT_OK(context, alp_ambience_submit(a, ask_root(a), &light));
+    (void)lone_light(a, 0.0);
+    (void)lone_light(a, 9.0);
+    const uint64_t renewal = ask_root(a);
+    (void)lone_light(a, 10.01); // it expires in this update
+    ASSERT_OK(context, alp_ambience_submit(a, renewal, &light));
+    for (int i = 1; i < 60; i++) {
+        ASSERT_NEAR(lone_light(a, 10.01 + 0.1 * i), 1.0, 1e-6);
+    }
+    const uint32_t anchor = a->graph.nodes[ALPI_GRAPH_ROOT].anchor;
+    assert_int_not_equal(anchor, ALPI_NO_ANCHOR);
+    ASSERT_NEAR(a->anchors[anchor].confidence, 1.0, 0.0);
+    alp_ambience_destroy(a);
+}
