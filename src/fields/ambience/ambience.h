@@ -29,6 +29,7 @@ typedef struct alpi_anchor {
     bool pending;          // a request for it is open
     bool leaving;          // its light has expired and fades out
     bool stale_light;      // lighting changed since
+    bool again;            // it goes stale when its fade ends
     bool stale_trace;      // geometry changed since
     bool coarse;           // sampled by few rays
     float height;          // flat: metres of its place along y

@@ -13,6 +13,9 @@ static const float FADE_RATE = 0.3f;
 static const float SOLID_SHARE = 0.2f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
 static const double SOLID_LIFETIMES = 4.0;
+/// Change of E by new lighting, over the mean, from which an anchor is lit once more: what bounced
+/// to it came from anchors that had the old light.
+static const float BOUNCE_CHANGE = 0.01f;
 
 // --- pool ----------------------------------------------------------------------------------------
 
@@ -200,6 +203,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
         at->confidence_rate = 1.0f / fminf(fmaxf(at->change / FADE_RATE, least), longest);
     }
     at->state = ALPI_ANCHOR_LIT;
+    at->again = at->stale_light && at->change > BOUNCE_CHANGE;
     at->leaving = at->stale_light = at->stale_trace = false;
     at->born = a->time;
     at->open = 1.0f;
@@ -246,6 +250,8 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
     } else {
         alpi_lights_copy(&a->lights, at->slot, &a->nexts, at->next);
         alpi_lights_give(&a->nexts, &at->next);
+        at->stale_light = at->stale_light || at->again; // light that bounced there changed too
+        at->again = false;
     }
     at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     at->version = ++a->version_serial;
