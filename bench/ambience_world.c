@@ -158,7 +158,6 @@ static bool gather(const ambience_world *w, const alp_ambience_snapshot *bounced
         .scene = w->scene.scene,
         .tracer = w->scene.tracer,
         .lighting = w->lighting,
-        .only_light = ALPI_NONE,
         .bounce = bounced != NULL ? read_bounce : NULL,
         .bounce_user = bounced,
         .bounce_cell_scale = 0.3f,

@@ -66,7 +66,6 @@ static alp_result prepare(hits_bench *b, bool quick)
                                    .scene = b->scene.scene,
                                    .tracer = b->scene.tracer,
                                    .lighting = b->lighting,
-                                   .only_light = ALPI_NONE,
                                    .bounce_cell_scale = 0.3f,
                                    .seed = 1};
     return place_points(b, quick ? QUICK_POINTS : POINTS);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What ambience prints: the seconds of a flight as table, CSV and JSON.
+// The seconds of a flight as table, CSV and JSON.
 #ifndef COMMAND_AMBIENCE_REPORT_H
 #define COMMAND_AMBIENCE_REPORT_H
 

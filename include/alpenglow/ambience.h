@@ -72,7 +72,7 @@ ALP_API void alp_ambience_destroy(alp_ambience *ambience);
 ///         LIMIT (readers and fields hold all of 16 snapshots: the old one stays)
 ALP_API ALP_NODISCARD alp_result alp_ambience_update(alp_ambience *ambience, double time);
 
-/// Where the camera is and goes.
+/// The camera, its motion and the objects round it.
 typedef struct alp_ambience_camera {
     double position[3]; ///< metres
     double velocity[3]; ///< metres per second
@@ -218,10 +218,10 @@ ALP_API void alp_ambience_sampler_destroy(alp_ambience_sampler *sampler);
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_set_lighting(
     alp_ambience_sampler *sampler, const alp_lighting_options *lighting);
 
-/// Sets black spheres that stop rays and shadow rays of the sampler: objects that move. Where they
-/// change, anchors within four radii are relit; others, and shadows that fall farther, follow with
-/// the next renewal. A ray that starts in a sphere passes it, so anchors in an object have the
-/// light of the air. Distances that anchors keep are those of the scene.
+/// Sets black spheres that stop rays and shadow rays of the sampler: objects that move.
+/// Anchors within four radii of a sphere that changed are relit. Others, and shadows that fall
+/// farther, follow with the next renewal. A ray that starts in a sphere passes it, so anchors in an
+/// object have the light of the air. Distances that anchors keep are those of the scene.
 /// @param spheres [count][4] centre and radius > 0, metres; copied   @param count [0, 16]
 /// @return ALP_OK; INVALID_ARGUMENT (nothing changes)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_set_occluders(alp_ambience_sampler *sampler,

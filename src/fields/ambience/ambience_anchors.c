@@ -140,9 +140,8 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     return find_difference(now, before);
 }
 
-/// Seconds that new light takes: longer for large changes, unless the lighting changed. Where a
-/// fade is under way, it goes on at its speed at least: or renewals of still light would never end
-/// it.
+/// Seconds that new light takes: longer for large changes, unless the lighting changed. A
+/// fade under way goes on at its speed at least, or renewals of still light would never end it.
 static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
 {
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
@@ -235,8 +234,8 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
 
 // --- time ----------------------------------------------------------------------------------------
 
-/// Openness of a solid at a share u of its fade. Where it has the weight 1 − s of its places, the
-/// others' share then grows evenly: s / (s + (1 − s) o) = s + (1 − s) u.
+/// Openness of a solid at a share u of its fade. If its places have the weight 1 − s, the others'
+/// share grows evenly: s / (s + (1 − s) o) = s + (1 − s) u.
 static float solid_openness(float u)
 {
     return u >= 1.0f ? 0.0f : SOLID_SHARE * (1.0f - u) / (SOLID_SHARE + (1.0f - SOLID_SHARE) * u);

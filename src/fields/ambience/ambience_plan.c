@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where to sample next.
+// The choice of the next anchors to sample.
 //
 // Each level has a window round the way of the camera: its position, and where it will be within a
 // second, from a known path or from its velocity with inertia. Missing anchors of coarse levels
@@ -324,7 +324,7 @@ static void consider(plan *p, uint32_t level, const int32_t index[3], uint32_t p
                  2.0f * interest * (0.3f + expect_change(p, level, index)));
 }
 
-/// Where room gets scarce, anchors that no window holds fade out before they expire.
+/// Anchors that no window holds fade out before they expire, if room gets scarce.
 static void make_room(alp_ambience *a)
 {
     if ((double)a->anchor_count < CROWDED * (double)a->options.anchor_limit) {

@@ -414,7 +414,7 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
         .tracer = s->tracer,
         .lighting = s->soft,
         .aimed = find_aimed(s),
-        .only_light = s->options.light,
+        .only_light = s->options.light + 1u, // UINT32_MAX: 0, all
         .bounce = choose_bounce(&s->options),
         .bounce_user = now,
         .bounce_cell_scale = CELL_SCALE,

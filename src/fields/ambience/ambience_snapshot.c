@@ -125,7 +125,6 @@ alp_result alpi_snapshot_publish(alp_ambience *a)
     for (uint32_t level = 0; level < ALPI_GRAPH_LEVELS; level++) {
         s->level_scale[level] = 1.0 / (double)alpi_graph_width(level);
     }
-    s->time = a->time;
     s->flat = a->options.flat;
     s->lookup = a->options.lookup;
     s->root_level = a->graph.nodes[ALPI_GRAPH_ROOT].level;

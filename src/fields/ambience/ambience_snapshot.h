@@ -48,7 +48,7 @@ alpi_ambience_lookup_fn alpi_ambience_lookup_baseline, alpi_ambience_lookup_v3;
 
 struct alp_ambience_snapshot {
     alpi_ambience_lookup_fn *read;
-    double centre[3], unit, inverse_unit, time;
+    double centre[3], unit, inverse_unit;
     double level_scale[ALPI_GRAPH_LEVELS]; // 3^−level
     int32_t root_index[3];
     bool flat;

@@ -170,8 +170,9 @@ static void gather_point(const alpi_sphere_hits_run *run, alpi_sphere_hits_point
     }
     finish_light(&sums, &at->value);
     if (at->direct) {
-        const alpi_sphere_lamps lamps = {
-            .rays = &rays, .lighting = how->lighting, .light = how->only_light};
+        const alpi_sphere_lamps lamps = {.rays = &rays,
+                                         .lighting = how->lighting,
+                                         .light = how->only_light - 1u /* 0: ALPI_NONE */};
         alpi_sphere_lamps_at(&lamps, at->point, at->key, &at->value.light);
     }
     if (moments) {
@@ -226,7 +227,7 @@ static alp_result collect_lamps(alpi_sphere_hits_run *run)
     const uint32_t count = alpi_lighting_light_count(how->lighting);
     ALPI_TRY_NEW(how->context, run->lamps, count);
     for (uint32_t i = 0; i < count; i++) {
-        const bool counts = how->only_light == ALPI_NONE || how->only_light == i;
+        const bool counts = how->only_light == 0 || how->only_light == i + 1;
         run->lamp_count += counts && set_lamp(how, i, &run->lamps[run->lamp_count]) ? 1 : 0;
     }
     return ALP_OK;
@@ -242,8 +243,8 @@ alp_result alpi_sphere_hits_gather(const alpi_sphere_relight *how, alpi_sphere_h
         .loops = &ALPI_COMPILED_FOR(how->context, alpi_sphere_loops),
         .hits_loops = &ALPI_COMPILED_FOR(how->context, alpi_sphere_hits_loops),
         .filter = how->filter,
-        .sky = how->only_light == ALPI_NONE ? alpi_lighting_sky(how->lighting) : NULL};
-    assert(how->only_light == ALPI_NONE || how->aimed == NULL);
+        .sky = how->only_light == 0 ? alpi_lighting_sky(how->lighting) : NULL};
+    assert(how->only_light == 0 || how->aimed == NULL);
     run.filter.panes = alpi_tracer_has_panes(how->tracer);
     for (uint32_t i = 0; i < count; i++) {
         assert(points[i].face % 4 == 0 && points[i].face >= 4 &&

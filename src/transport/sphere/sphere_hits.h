@@ -58,10 +58,10 @@ typedef struct alpi_sphere_relight {
     alpi_trace_filter filter;      // panes are seen to here
     const alpi_lighting *lighting; // lamps, suns, emissive surfaces, sky
     // NULL, or sources that extra rays are aimed at (sphere_aimed.h): then rays that meet emission
-    // by chance do not count it. Of a sky whose spots are aimed at, `lighting` has the soft part.
+    // by chance do not count it. `lighting` then has the soft part of a sky with spots.
     const alpi_lighting *aimed;
-    // A lamp or sun of `lighting`, or ALPI_NONE: all light. With a lamp alone, there is no sky and
-    // no emission, `aimed` is NULL, and `bounce` gives the light of that lamp.
+    // 0: all light; else 1 + the index of a lamp or sun of `lighting`. With a lamp alone, there is
+    // no sky and no emission, `aimed` is NULL, and `bounce` gives the light of that lamp.
     uint32_t only_light;
     alpi_bounce_fn *bounce; // NULL: 0
     const void *bounce_user;

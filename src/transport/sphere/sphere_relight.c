@@ -385,7 +385,7 @@ void alpi_sphere_hits_light(const alpi_sphere_hits_work *work, uint32_t first, u
     }
     for (uint32_t k = 0; k < count; k++) {
         run->hits_loops->reflect(&met[k], &packets[k]);
-        if (run->how->aimed == NULL && run->how->only_light == ALPI_NONE) {
+        if (run->how->aimed == NULL && run->how->only_light == 0) {
             add_emission(run, hits[k], &met[k], open[k], &packets[k]);
         }
         if (run->sky != NULL) {

@@ -230,11 +230,8 @@ TEST(no_anchor_with_light_lies_in_a_solid)
         p.point = (vec3){(float)place[0], (float)place[1], (float)place[2]};
         ASSERT_OK(context, alpi_tracer_for_scene(l.scene, NULL, NULL, &tracer, NULL));
         ASSERT_OK(context, alpi_lighting_create(l.scene, NULL, &lighting));
-        const alpi_sphere_relight how = {.context = context,
-                                         .scene = l.scene,
-                                         .tracer = tracer,
-                                         .lighting = lighting,
-                                         .only_light = ALPI_NONE};
+        const alpi_sphere_relight how = {
+            .context = context, .scene = l.scene, .tracer = tracer, .lighting = lighting};
         ASSERT_OK(context, alpi_sphere_hits_gather(&how, &p, 1, NULL));
         assert_true(p.value.behind <= 1.2f * ALPI_FREE_BACKS);
         alpi_lighting_destroy(context, lighting);

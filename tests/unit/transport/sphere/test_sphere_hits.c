@@ -22,7 +22,6 @@ static alpi_sphere_relight relight_of(const test_lit *lit)
                                  .scene = lit->scene,
                                  .tracer = lit->tracer,
                                  .lighting = lit->lighting,
-                                 .only_light = ALPI_NONE,
                                  .seed = 1};
 }
 

@@ -33,7 +33,6 @@ static alpi_sphere_relight relight_of(const test_lit *lit, const alpi_occluders 
                                  .scene = lit->scene,
                                  .tracer = lit->tracer,
                                  .lighting = lit->lighting,
-                                 .only_light = ALPI_NONE,
                                  .occluders = occluders,
                                  .seed = 1};
 }
