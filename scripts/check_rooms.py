@@ -68,7 +68,8 @@ SUB_ROOMS = {
         "seams": ["texels", "."],
         "vertex": ["."],
     },
-    "fields": {".": [], "ambient": ["."], "probes": ["."], "ambience": ["."]},
+    "fields": {".": [], "ambient": ["."], "probes": ["."], "ambience": ["."],
+               "propagation": ["."]},
     "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["files", "light", "."]},
 }
 
@@ -77,7 +78,7 @@ PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "sh": "sh", "shared_constants": "sh", "display": "film", "film": "film", "light": "scene",
     "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
-    "field": "fields", "probes": "fields", "ambience": "fields", "render": "render",
+    "field": "fields", "probes": "fields", "ambience": "fields", "lpv": "fields", "render": "render",
     "doctor": "doctor", "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
 }
 

@@ -14,6 +14,7 @@
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
+#include <alpenglow/lpv.h>
 #include <alpenglow/lightmap.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/probes.h>

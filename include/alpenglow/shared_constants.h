@@ -25,4 +25,18 @@
 #define ALP_SH_C4 0.88622692545275801
 #define ALP_SH_C5 0.24770795610037571
 
+// Light propagation volumes. Intensity of a cell: I(w) = p0 + p.w, two bands of spherical harmonics
+// with their constants folded in. A cosine lobe of flux F about n is F/pi (1/4 + 1/2 n.w).
+// Solid angles [sr] of the faces of the next cell, from the centre of a cell: the far face, and
+// each of four side faces. far + 4 side = 2 pi / 3, so that 6 neighbours have 4 pi.
+#define ALP_LPV_FAR 0.40066968464623920
+#define ALP_LPV_SIDE 0.42343135443673900
+// Direction to the middle of a side face: 2/sqrt(5) along the way to the cell, 1/sqrt(5) aside.
+#define ALP_LPV_ALONG 0.89442719099991588
+#define ALP_LPV_ASIDE 0.44721359549995794
+// An even field of radiance L in cells of side s has the sum of intensities 1.5 L s^2.
+#define ALP_LPV_GAIN 1.5
+// Two bands block less than a covered cell does: .75 head-on. Opacity is multiplied by this.
+#define ALP_LPV_OPACITY 1.6
+
 #endif

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+// Surfels into grids: light into cells, blockers into nodes. Places are found first. Then each
+// worker takes a slab of the grid and adds the surfels of its slab in their order, so that sums do
+// not depend on the number of workers.
+#include "base/memory.h"
+#include "base/tasks.h"
+#include "fields/propagation/lpv.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { GRAIN = 4096, SLABS = 8 };
+enum { OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1 }; // in place of a place
+/// A virtual light lies this many cells above its surface.
+static const double ABOVE = 0.5;
+
+typedef struct injection {
+    alp_lpv *lpv;
+    const alp_lpv_surfels *surfels;
+    alpi_lpv_grid *grid;
+    uint32_t index;   // of the grid
+    uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
+    bool blockers;
+} injection;
+
+// --- what is usable ------------------------------------------------------------------------------
+
+static bool is_good(const float v[3], float least)
+{
+    bool good = true;
+    for (int k = 0; k < 3; k++) {
+        good = good && isfinite(v[k]) && v[k] >= least;
+    }
+    return good;
+}
+
+static bool is_usable(const injection *in, uint32_t i)
+{
+    const alp_lpv_surfels *s = in->surfels;
+    const float *n = s->normals[i], anything = -HUGE_VALF;
+    const float squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    bool good = is_good(s->positions[i], anything) && squares > 0.98f && squares < 1.02f;
+    if (in->blockers) {
+        good = good && isfinite(s->areas[i]) && s->areas[i] >= 0.0f;
+        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f));
+    } else {
+        good = good && is_good(s->flux[i], 0.0f);
+    }
+    return good && (s->radii == NULL || isfinite(s->radii[i]));
+}
+
+// --- places --------------------------------------------------------------------------------------
+
+/// Position in cells from the corner of a grid.
+static void place_in(const alpi_lpv_grid *g, const float position[3], double at[3])
+{
+    for (int k = 0; k < 3; k++) {
+        at[k] = (double)position[k] / g->cell - (double)g->corner[k];
+    }
+}
+
+static bool is_inside(const alpi_lpv_grid *g, const float position[3])
+{
+    double at[3];
+    bool inside = true;
+    place_in(g, position, at);
+    for (int k = 0; k < 3; k++) {
+        inside = inside && at[k] >= 0.0 && at[k] < (double)g->size[k];
+    }
+    return inside;
+}
+
+/// Whether a map of one cascade provides the light of this place: the part of its grid that the
+/// next finer grid does not hold.
+static bool is_of_map(const injection *in, const float position[3])
+{
+    const alpi_lpv_grid *grids = in->lpv->grids;
+    const uint32_t c = in->cascade;
+    return c == ALP_LPV_ALL_CASCADES ||
+           (is_inside(&grids[c], position) && (c == 0 || !is_inside(&grids[c - 1], position)));
+}
+
+static uint32_t find_place(const injection *in, uint32_t i)
+{
+    const alp_lpv_surfels *s = in->surfels;
+    const alpi_lpv_grid *g = in->grid;
+    if (!is_usable(in, i)) {
+        return UNUSABLE;
+    }
+    const float radius = s->radii != NULL ? s->radii[i] : 0.0f;
+    if (radius > 0.0f && 2.0 * (double)radius < g->cell) {
+        return OUTSIDE;
+    }
+    if (!in->blockers && !is_of_map(in, s->positions[i])) {
+        return OUTSIDE;
+    }
+    double at[3];
+    uint32_t place = 0;
+    place_in(g, s->positions[i], at);
+    for (int k = 2; k >= 0; k--) { // nodes lie at corners of cells
+        const double end = (double)g->size[k] + (in->blockers ? 1.0 : 0.0);
+        at[k] += in->blockers ? 0.5 : ABOVE * (double)s->normals[i][k];
+        if (!(at[k] >= 0.0) || at[k] >= end) {
+            return OUTSIDE;
+        }
+        place = place * (uint32_t)end + (uint32_t)at[k];
+    }
+    return place;
+}
+
+static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const injection *in = user;
+    for (uint32_t i = begin; i < end; i++) {
+        in->lpv->places[i] = find_place(in, i);
+    }
+    return ALP_OK;
+}
+
+// --- adding --------------------------------------------------------------------------------------
+
+/// A cosine lobe of flux Φ about n: Φ/π (1/4 + n·ω/2).
+static void add_lobe(float *p, size_t stride, float flux_over_pi, const float n[3])
+{
+    p[0] += 0.25f * flux_over_pi;
+    p[stride] += 0.5f * flux_over_pi * n[0];
+    p[2 * stride] += 0.5f * flux_over_pi * n[1];
+    p[3 * stride] += 0.5f * flux_over_pi * n[2];
+}
+
+static void add_light(const injection *in, uint32_t i, uint32_t place)
+{
+    const alpi_lpv_grid *g = in->grid;
+    const uint32_t x = place % g->size[0];
+    float *cell = g->injected + (size_t)(place / g->size[0]) * ALPI_LPV_ROWS * g->size[0] + x;
+    for (uint32_t channel = 0; channel < 3; channel++) {
+        add_lobe(cell + (size_t)channel * ALPI_LPV_TERMS * g->size[0], g->size[0],
+                 in->surfels->flux[i][channel] / (float)ALPI_PI, in->surfels->normals[i]);
+    }
+}
+
+/// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s².
+static void add_blocker(const injection *in, uint32_t i, uint32_t place)
+{
+    static const float grey[3] = {0.5f, 0.5f, 0.5f};
+    const alp_lpv_surfels *s = in->surfels;
+    float *node = in->grid->view + (size_t)place * ALPI_LPV_NODE_TERMS;
+    const float *albedo = s->albedo != NULL ? s->albedo[i] : grey;
+    const float share = (float)((double)s->areas[i] / (in->grid->cell * in->grid->cell));
+    add_lobe(node, 1, share, s->normals[i]);
+    for (int k = 0; k < 3; k++) {
+        node[ALPI_LPV_TERMS + k] += 0.25f * share * albedo[k];
+    }
+}
+
+static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const injection *in = user;
+    const size_t places =
+        in->blockers ? alpi_lpv_nodes(in->grid->size) : alpi_lpv_cells(in->grid->size);
+    const uint32_t first = (uint32_t)(places * begin / SLABS), last = (uint32_t)(places * end / SLABS);
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        const uint32_t place = in->lpv->places[i];
+        if (place >= first && place < last) {
+            if (in->blockers) {
+                add_blocker(in, i, place);
+            } else {
+                add_light(in, i, place);
+            }
+        }
+    }
+    return ALP_OK;
+}
+
+static void count_unusable(const injection *in)
+{
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        in->lpv->skipped += in->lpv->places[i] == UNUSABLE;
+    }
+}
+
+static alp_result inject(injection *in)
+{
+    alp_lpv *lpv = in->lpv;
+    const uint32_t count = in->surfels->count, finest = in->index;
+    if (count > lpv->place_limit) {
+        ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->places, &lpv->place_limit, count,
+                          sizeof *lpv->places));
+    }
+    for (; in->index < lpv->options.cascades; in->index++) {
+        in->grid = &lpv->grids[in->index];
+        ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_places, in, NULL));
+        ALP_TRY(alpi_parallel_for(lpv->context, SLABS, 1, add_slabs, in, NULL));
+        if (in->index == finest) {
+            count_unusable(in);
+        }
+    }
+    return ALP_OK;
+}
+
+// --- the host's calls ----------------------------------------------------------------------------
+
+alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
+{
+    const bool all = cascade == ALP_LPV_ALL_CASCADES;
+    if (!all && cascade >= lpv->options.cascades) {
+        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "lpv: light for cascade %u of %u; they are numbered from 0", cascade,
+                         lpv->options.cascades);
+    }
+    if (surfels->count > 0 && surfels->flux == NULL) {
+        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: light without flux");
+    }
+    injection in = {.lpv = lpv, .surfels = surfels, .index = all ? 0 : cascade, .cascade = cascade};
+    return inject(&in);
+}
+
+/// Adds a view to the merged ones. CONFORMANCE: the maximum of each term, as the paper does.
+/// Else the view with more surface has the node: views show the same surfaces.
+static void merge_view(alpi_lpv_grid *g, bool by_term)
+{
+    enum { N = ALPI_LPV_NODE_TERMS };
+    const size_t nodes = alpi_lpv_nodes(g->size);
+    for (size_t i = 0; i < nodes; i++) {
+        float *into = g->nodes + i * N, *from = g->view + i * N;
+        if (!by_term && from[0] > into[0]) {
+            memcpy(into, from, N * sizeof *into);
+        }
+        for (int t = 0; t < N && by_term; t++) {
+            into[t] = fmaxf(into[t], from[t]);
+        }
+    }
+    memset(g->view, 0, nodes * N * sizeof *g->view);
+}
+
+alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels)
+{
+    if (!lpv->options.blockers) {
+        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "lpv: the volume was made without blockers");
+    }
+    if (surfels->count > 0 && surfels->areas == NULL) {
+        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: blockers without areas");
+    }
+    injection in = {
+        .lpv = lpv, .surfels = surfels, .cascade = ALP_LPV_ALL_CASCADES, .blockers = true};
+    ALP_TRY(inject(&in));
+    for (uint32_t c = 0; c < lpv->options.cascades; c++) {
+        merge_view(&lpv->grids[c], lpv->options.mode != ALP_LPV_ACCURATE);
+    }
+    return ALP_OK;
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+/// Nodes to where the grid is now; those that are new are empty.
+static void move_nodes(alpi_lpv_grid *g)
+{
+    enum { N = ALPI_LPV_NODE_TERMS };
+    const int64_t n[3] = {(int64_t)g->size[0] + 1, (int64_t)g->size[1] + 1,
+                          (int64_t)g->size[2] + 1};
+    for (int64_t z = 0; z < n[2]; z++) {
+        for (int64_t y = 0; y < n[1]; y++) {
+            for (int64_t x = 0; x < n[0]; x++) {
+                const int64_t at[3] = {x + g->corner[0] - g->node_corner[0],
+                                       y + g->corner[1] - g->node_corner[1],
+                                       z + g->corner[2] - g->node_corner[2]};
+                bool held = true;
+                for (int k = 0; k < 3; k++) {
+                    held = held && at[k] >= 0 && at[k] < n[k];
+                }
+                if (held) {
+                    memcpy(g->view + ((z * n[1] + y) * n[0] + x) * N,
+                           g->nodes + ((at[2] * n[1] + at[1]) * n[0] + at[0]) * N,
+                           N * sizeof *g->view);
+                }
+            }
+        }
+    }
+    float *swap = g->nodes;
+    g->nodes = g->view;
+    g->view = swap;
+    memset(g->view, 0, alpi_lpv_nodes(g->size) * N * sizeof *g->view);
+}
+
+static void begin(alp_lpv *lpv, bool keep)
+{
+    lpv->skipped = 0;
+    for (uint32_t c = 0; c < lpv->options.cascades; c++) {
+        alpi_lpv_grid *g = &lpv->grids[c];
+        memset(g->injected, 0, ALPI_LPV_ROWS * alpi_lpv_cells(g->size) * sizeof *g->injected);
+        if (g->nodes != NULL && !keep) {
+            memset(g->nodes, 0, ALPI_LPV_NODE_TERMS * alpi_lpv_nodes(g->size) * sizeof *g->nodes);
+        } else if (g->nodes != NULL && memcmp(g->corner, g->node_corner, sizeof g->corner) != 0) {
+            move_nodes(g);
+        }
+        memcpy(g->node_corner, g->corner, sizeof g->corner);
+    }
+}
+
+void alp_lpv_begin(alp_lpv *lpv)
+{
+    begin(lpv, false);
+}
+
+void alp_lpv_begin_with_last_blockers(alp_lpv *lpv)
+{
+    begin(lpv, true);
+}
+
+// --- faces ---------------------------------------------------------------------------------------
+
+typedef struct face_loop {
+    const alp_lpv *lpv;
+    float opacity;
+} face_loop;
+
+/// Mean of the four nodes of the low faces of a row of cells across one axis.
+static void find_row(const alpi_lpv_grid *g, float opacity, uint32_t y, uint32_t z, int axis)
+{
+    enum { N = ALPI_LPV_NODE_TERMS };
+    const size_t n = g->size[0], wide = n + 1, high = (size_t)g->size[1] + 1;
+    const size_t steps[3] = {N, N * wide, N * wide * high};
+    const size_t b = steps[(axis + 1) % 3], c = steps[(axis + 2) % 3];
+    const float *first = g->nodes + ((size_t)z * high + y) * wide * N;
+    float *rows = g->faces + ((size_t)z * g->size[1] + y) * ALPI_LPV_FACE_ROWS * n;
+    float *terms = rows + (size_t)axis * ALPI_LPV_TERMS * n;
+    float *albedo = rows + (size_t)(3 * ALPI_LPV_TERMS + 3 * axis) * n;
+    for (size_t x = 0; x < n; x++) {
+        const float *at = first + x * N;
+        float sum[N];
+        for (size_t t = 0; t < N; t++) {
+            sum[t] = at[t] + at[b + t] + at[c + t] + at[b + c + t];
+        }
+        for (size_t t = 0; t < ALPI_LPV_TERMS; t++) {
+            terms[t * n + x] = 0.25f * opacity * sum[t];
+        }
+        for (size_t k = 0; k < 3; k++) {
+            albedo[k * n + x] = sum[0] > 0.0f ? sum[ALPI_LPV_TERMS + k] / sum[0] : 0.0f;
+        }
+    }
+}
+
+static alp_result find_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const face_loop *loop = user;
+    const alpi_lpv_grid *grids = loop->lpv->grids;
+    const uint32_t height = grids->size[1], rows = height * grids->size[2];
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t row = i % rows;
+        for (int axis = 0; axis < 3; axis++) {
+            find_row(&grids[i / rows], loop->opacity, row % height, row / height, axis);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lpv_find_faces(alp_lpv *lpv)
+{
+    const uint32_t *n = lpv->options.size;
+    face_loop loop = {lpv, alpi_lpv_scheme_of(lpv->options.mode).opacity};
+    return alpi_parallel_for(lpv->context, n[1] * n[2] * lpv->options.cascades, n[1], find_rows,
+                             &loop, NULL);
+}
