@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of the table of options: light, its sources, gathering and storage.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 static const option rows[] = {
     {.id = OPTION_TEXEL_SAMPLES,

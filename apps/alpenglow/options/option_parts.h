@@ -3,7 +3,7 @@
 #ifndef COMMAND_OPTION_PARTS_H
 #define COMMAND_OPTION_PARTS_H
 
-#include "options.h"
+#include "options/options.h"
 
 #define RAY_COMMANDS (IN_BAKE | IN_RENDER)
 #define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE)

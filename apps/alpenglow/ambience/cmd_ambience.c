@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow ambience: the live volume of light along a flight.
-#include "ambience_error.h"
-#include "ambience_pictures.h"
-#include "ambience_report.h"
+#include "ambience/ambience_error.h"
+#include "ambience/ambience_pictures.h"
+#include "ambience/ambience_report.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"

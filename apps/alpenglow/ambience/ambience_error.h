@@ -3,7 +3,7 @@
 #ifndef COMMAND_AMBIENCE_ERROR_H
 #define COMMAND_AMBIENCE_ERROR_H
 
-#include "flight_run.h"
+#include "ambience/flight_run.h"
 
 typedef struct ambience_error {
     bool direct;      // light straight from lamps and suns is in E

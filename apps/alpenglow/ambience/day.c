@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "day.h"
+#include "ambience/day.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #ifndef COMMAND_FLIGHT_RUN_H
 #define COMMAND_FLIGHT_RUN_H
 
-#include "flight.h"
+#include "ambience/flight.h"
 #include "session.h"
 
 #include <alpenglow/ambience.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ambience_pictures.h"
+#include "ambience/ambience_pictures.h"
 
 #include "output.h"
 #include "views.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ambience_error.h"
+#include "ambience/ambience_error.h"
 
 #include <math.h>
 #include <string.h>

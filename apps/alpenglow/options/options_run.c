@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of the table of options: bench, and the run of a command.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 static const option rows[] = {
     {.id = OPTION_QUICK,

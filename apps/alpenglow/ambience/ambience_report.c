@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ambience_report.h"
+#include "ambience/ambience_report.h"
 
 #include "output.h"
 #include "report.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parsing a command line by the table: strict numbers, ranges, suggestions for misspelt words.
-#include "options.h"
+#include "options/options.h"
 
 #include <errno.h>
 #include <math.h>

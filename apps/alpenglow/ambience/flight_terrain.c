@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The flight through builtin:terrain, the same as examples/terrain_flight.csv.
-#include "flight.h"
+#include "ambience/flight.h"
 
 #include "messages.h"
 

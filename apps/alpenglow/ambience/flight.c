@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "flight.h"
+#include "ambience/flight.h"
 
 #include "points.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of the table of options: the live ambience volume.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 #define FLIGHT_COMMANDS (IN_AMBIENCE | IN_SAMPLE | IN_RENDER)
 

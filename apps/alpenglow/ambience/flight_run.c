@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "flight_run.h"
+#include "ambience/flight_run.h"
 
-#include "day.h"
+#include "ambience/day.h"
 
 #include <math.h>
 #include <stdlib.h>

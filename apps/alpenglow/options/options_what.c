@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of the table of options: scene, atlas and comparison.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 static const option rows[] = {
     {.id = OPTION_SIZE,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of the table of options: options of the contract that are not built yet.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 #define LATER(commands_, name_, value_, instead_)                                                  \
     {                                                                                              \

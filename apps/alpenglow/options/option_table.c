@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The table of options, from its parts: every option of the contract.
-#include "option_parts.h"
+#include "options/option_parts.h"
 
 /// In the order of help and completion.
 static const option_part *const parts[] = {

@@ -3,7 +3,7 @@
 #ifndef COMMAND_AMBIENCE_REPORT_H
 #define COMMAND_AMBIENCE_REPORT_H
 
-#include "flight_run.h"
+#include "ambience/flight_run.h"
 
 #include <jansson.h>
 
