@@ -135,26 +135,20 @@ static int sample(session *s, const command_line *a, const alp_lighting_options 
 
 int command_sample(const command_line *a)
 {
-    alp_lighting_options lighting = alp_lighting_options_default();
+    alp_lighting_options lighting;
     lamp_list lamps;
     point_list points = {0};
-    alp_image *sky = NULL;
+    alp_image *sky;
     session s;
     int code = check_options(a);
     code = code == EXIT_DONE ? lighting_read(a, &lighting, &lamps) : code;
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
-    code = session_open(&s, a);
-    code = code == EXIT_DONE ? session_load(&s, a) : code;
+    code = lighting_open(&s, a, &lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
         const alp_scene_info info = alp_scene_get_info(s.scene);
         code = points_read(a->values[OPTION_AT].text, true, info.origin, &points);
-    }
-    if (code == EXIT_DONE) {
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &lighting, &sky);
     }
     code = code == EXIT_DONE ? sample(&s, a, &lighting, &points) : code;
     alp_image_destroy(sky);

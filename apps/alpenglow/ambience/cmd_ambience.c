@@ -195,22 +195,16 @@ static int ambience(session *s, const command_line *a, const alp_lighting_option
 
 int command_ambience(const command_line *a)
 {
-    alp_lighting_options lighting = alp_lighting_options_default();
+    alp_lighting_options lighting;
     lamp_list lamps;
-    alp_image *sky = NULL;
+    alp_image *sky;
     session s;
     int code = check_options(a);
     code = code == EXIT_DONE ? lighting_read(a, &lighting, &lamps) : code;
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
-    code = session_open(&s, a);
-    code = code == EXIT_DONE ? session_load(&s, a) : code;
-    if (code == EXIT_DONE) {
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &lighting, &sky);
-    }
+    code = lighting_open(&s, a, &lighting, &lamps, &sky);
     code = code == EXIT_DONE ? ambience(&s, a, &lighting) : code;
     alp_image_destroy(sky);
     session_close(&s);

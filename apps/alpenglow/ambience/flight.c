@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "ambience/flight.h"
 
-#include "points.h"
+#include "messages.h"
+#include "number_lines.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS = 8, NEEDED = 7, POINT_LIMIT = 1 << 20, MESSAGE_SIZE = 400 };
+enum { COLUMNS = 8, NEEDED = 7, POINT_LIMIT = 1 << 20 };
 
 static const double DEFAULT_VFOV = 60.0; // degrees
 
@@ -17,17 +18,16 @@ static double distance(const double a[3], const double b[3])
                 (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-/// @param n    [COLUMNS], `count` of them read
-/// @param rest what follows them
-static const char *fault_of(const double *n, int count, const char *rest)
+static const char *fault_of(const number_line *line)
 {
-    if (count < NEEDED) {
+    const double *n = line->numbers;
+    if (line->count < NEEDED) {
         return "need seven numbers: t,px,py,pz,tx,ty,tz, and vfov if wanted";
     }
-    if (rest[strspn(rest, ",; \t\r\n")] != '\0') {
+    if (line->rest[strspn(line->rest, ",; \t\r\n")] != '\0') {
         return "something follows the numbers; give t,px,py,pz,tx,ty,tz, and vfov if wanted";
     }
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < line->count; k++) {
         if (!isfinite(n[k]) || fabs(n[k]) > (k == 0 ? 1e9 : 1e15)) {
             return k == 0 ? "the time is not finite, or beyond 1e9 s; give seconds"
                           : "a number is not finite, or beyond 1e15; give metres";
@@ -36,15 +36,17 @@ static const char *fault_of(const double *n, int count, const char *rest)
     if (!(distance(n + 1, n + 4) > 0.0)) {
         return "the target is the position; give another point to look at";
     }
-    if (count == COLUMNS && !(n[7] >= 1e-3 && n[7] <= 179.0)) {
+    if (line->count == COLUMNS && !(n[7] >= 1e-3 && n[7] <= 179.0)) {
         return "vfov is out of range; give 0.001 to 179 degrees";
     }
     return NULL;
 }
 
-static flight_point make_point(const double n[COLUMNS], const double origin[3])
+static flight_point make_point(const number_line *line, const double origin[3])
 {
-    flight_point p = {.time = n[0], .vfov = n[7] * (M_PI / 180.0)};
+    const double *n = line->numbers;
+    const double vfov = line->count == COLUMNS ? n[7] : DEFAULT_VFOV;
+    flight_point p = {.time = n[0], .vfov = vfov * (M_PI / 180.0)};
     for (int k = 0; k < 3; k++) {
         p.position[k] = n[1 + k] - origin[k];
         p.target[k] = n[4 + k] - origin[k];
@@ -52,68 +54,41 @@ static flight_point make_point(const double n[COLUMNS], const double origin[3])
     return p;
 }
 
-static const char *keep(flight *f, const flight_point *point, uint32_t *room)
+typedef struct reading {
+    flight *flight;
+    double origin[3];
+    uint32_t room;
+} reading;
+
+/// A number_line_fn; `user` is a reading.
+static const char *keep(void *user, const number_line *line)
 {
-    if (f->count > 0 && !(point->time > f->points[f->count - 1].time)) {
+    reading *r = user;
+    flight *f = r->flight;
+    const char *fault = fault_of(line);
+    if (fault != NULL) {
+        return fault;
+    }
+    if (f->count > 0 && !(line->numbers[0] > f->points[f->count - 1].time)) {
         return "the time is not after that of the line before; give times that rise";
     }
     if (f->count == POINT_LIMIT) {
         return "too many lines, need 1048576 or fewer; leave some out";
     }
-    if (f->count == *room) {
-        *room = *room > 0 ? 2 * *room : 64;
-        f->points = allocate_or_exit(f->points, *room * sizeof *f->points);
+    if (f->count == r->room) {
+        r->room = r->room > 0 ? 2 * r->room : 64;
+        f->points = allocate_or_exit(f->points, r->room * sizeof *f->points);
     }
-    f->points[f->count++] = *point;
+    f->points[f->count++] = make_point(line, r->origin);
     return NULL;
-}
-
-static int read_lines(FILE *file, const char *path, const double origin[3], flight *f)
-{
-    char *line = NULL;
-    size_t size = 0;
-    uint32_t room = 0;
-    int code = EXIT_DONE;
-    for (unsigned long number = 1; code == EXIT_DONE && getline(&line, &size, file) >= 0;
-         number++) {
-        double n[COLUMNS] = {[7] = DEFAULT_VFOV};
-        const char *start = line + strspn(line, " \t\r\n"), *end = start;
-        if (*start == '\0' || *start == '#' || (f->count == 0 && points_are_names(start))) {
-            continue;
-        }
-        const int count = points_numbers(start, n, COLUMNS, &end);
-        const char *fault = fault_of(n, count, end);
-        if (fault == NULL) {
-            n[7] = count < COLUMNS ? DEFAULT_VFOV : n[7];
-            const flight_point point = make_point(n, origin);
-            fault = keep(f, &point, &room);
-        }
-        code = fault != NULL ? points_refuse(path, number, fault) : EXIT_DONE;
-    }
-    free(line);
-    return code;
 }
 
 int flight_read(const char *path, const double origin[3], flight *f)
 {
-    char fault[MESSAGE_SIZE];
-    const bool input = strcmp(path, "-") == 0;
+    reading r = {.flight = f, .origin = {origin[0], origin[1], origin[2]}};
     *f = (flight){0};
-    FILE *file = input ? stdin : fopen(path, "r");
-    if (file == NULL) {
-        snprintf(fault, sizeof fault, "%s: cannot be read", path);
-        return failure(fault);
-    }
-    int code = read_lines(file, path, origin, f);
-    if (!input) {
-        fclose(file);
-    }
-    if (code == EXIT_DONE && f->count == 0) {
-        snprintf(fault, sizeof fault,
-                 "%s: holds no flight; give lines of t,px,py,pz,tx,ty,tz[,vfov]", path);
-        code = failure(fault);
-    }
-    return code;
+    return number_lines_read(path, COLUMNS,
+                             "holds no flight; give lines of t,px,py,pz,tx,ty,tz[,vfov]", keep, &r);
 }
 
 void flight_clear(flight *f)

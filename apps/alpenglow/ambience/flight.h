@@ -26,8 +26,7 @@ typedef struct flight_camera {
     double vfov;                   // radians
 } flight_camera;
 
-/// Reads lines of t,px,py,pz,tx,ty,tz[,vfov]: seconds, metres, degrees. Blanks, comments and names
-/// as in points_read.
+/// Reads lines of t,px,py,pz,tx,ty,tz[,vfov] by number_lines_read: seconds, metres, degrees.
 /// @param path   "-" is standard input
 /// @param origin of the scene in the world of its file: subtracted
 /// @return EXIT_DONE, or EXIT_FAILED after a message that names file and line
