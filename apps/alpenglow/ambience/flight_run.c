@@ -132,17 +132,20 @@ static int read_path(const command_line *a, flight_run *run)
 static int set_times(const command_line *a, flight_run *run)
 {
     const option_value *time = &a->values[OPTION_TIME];
-    const double end = time->given ? time->real : flight_end(&run->path);
     run->start = flight_start(&run->path);
+    run->end = time->given ? time->real : flight_end(&run->path);
     run->fps = a->values[OPTION_FPS].real;
-    if (end < run->start) {
+    if (run->end < run->start) {
         char text[160];
-        snprintf(text, sizeof text, "--time %g: the flight begins at %g s; give a later time", end,
-                 run->start);
+        snprintf(text, sizeof text, "--time %g: the flight begins at %g s; give a later time",
+                 run->end, run->start);
         return failure(text);
     }
-    const double frames = floor((end - run->start) * run->fps + 1e-6);
-    run->frame_count = frames < 1.0 ? 1 : (uint64_t)frames;
+    const double before = ceil((run->end - run->start) * run->fps - 1e-6);
+    run->frame_count = (uint64_t)fmax(before, 0.0);
+    if (a->command != COMMAND_AMBIENCE || run->frame_count == 0) { // light is read at the end
+        run->frame_count++;
+    }
     return EXIT_DONE;
 }
 
@@ -236,6 +239,11 @@ bool flight_run_progress(void *user, const alp_progress *unused)
     return session_progress(run->session, &state);
 }
 
+static double time_of(const flight_run *run, uint64_t frame)
+{
+    return fmin(run->start + (double)frame / run->fps, run->end);
+}
+
 /// The light of a time; the sampler gets it LIGHT_STEPS times a second.
 static alp_result move_sun(flight_run *run, double time)
 {
@@ -256,7 +264,7 @@ alp_result flight_run_next(flight_run *run, flight_frame *frame)
     if (!flight_run_progress(run, NULL)) {
         return ALP_ERROR_CANCELLED;
     }
-    const double time = run->start + (double)run->frame / run->fps, begin = clock_seconds();
+    const double time = time_of(run, run->frame), begin = clock_seconds();
     *frame = (flight_frame){.time = time, .camera = flight_at(&run->path, time)};
     const alp_ambience_camera camera = make_camera(run, &frame->camera);
     alp_result result = move_sun(run, time);
@@ -276,8 +284,7 @@ alp_result flight_run_next(flight_run *run, flight_frame *frame)
 
 flight_camera flight_run_camera(const flight_run *run)
 {
-    const double frames = run->frame > 0 ? (double)(run->frame - 1) : 0.0;
-    return flight_at(&run->path, run->start + frames / run->fps);
+    return flight_at(&run->path, time_of(run, run->frame > 0 ? run->frame - 1 : 0));
 }
 
 alp_result flight_run_finish(flight_run *run, flight_frame *last)

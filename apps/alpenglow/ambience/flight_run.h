@@ -19,10 +19,13 @@ typedef struct flight_run {
     alp_lighting_options lighting; // of the last frame
     double day;                    // seconds of --day; 0 = the sun stands still
     uint64_t light_step;           // of the lighting that the sampler has
-    double start, fps;
-    uint32_t budget;             // samples a frame
-    double budget_ms;            // 0 = no limit
-    uint64_t frame, frame_count; // done; to the end of the flight or --time
+    double start, end;             // seconds; the end is that of the flight, or --time
+    double fps;
+    uint32_t budget;  // samples a frame
+    double budget_ms; // 0 = no limit
+    // Done, and all. Frames lie before the end; where light is read after the flight, a last one
+    // lies at the end.
+    uint64_t frame, frame_count;
     uint64_t rays;
     double seconds; // of the clock, spent in frames
     double opened;  // by the clock
