@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { MESSAGE_SIZE = 400 };
 
@@ -30,6 +31,12 @@ static void read_numbers(number_line *line, int columns)
 static bool is_names(const number_line *line)
 {
     return line->count == 0 && strpbrk(line->text, "xX") != NULL;
+}
+
+static bool is_folder(FILE *file)
+{
+    struct stat found;
+    return fstat(fileno(file), &found) == 0 && S_ISDIR(found.st_mode);
 }
 
 static int refuse(const char *path, unsigned long line, const char *fault)
@@ -63,6 +70,9 @@ static int read_lines(FILE *file, const char *path, int columns, const char *emp
         }
     }
     free(text);
+    if (code == EXIT_DONE && ferror(file)) {
+        return refuse(path, 0, "cannot be read to its end");
+    }
     return code == EXIT_DONE && !has_numbers ? refuse(path, 0, empty) : code;
 }
 
@@ -74,7 +84,8 @@ int number_lines_read(const char *path, int columns, const char *empty, number_l
     if (file == NULL) {
         return refuse(path, 0, "cannot be read");
     }
-    const int code = read_lines(file, path, columns, empty, keep, user);
+    const int code = is_folder(file) ? refuse(path, 0, "is a folder; give a file of lines")
+                                     : read_lines(file, path, columns, empty, keep, user);
     if (!input) {
         fclose(file);
     }

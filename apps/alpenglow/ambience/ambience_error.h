@@ -14,7 +14,7 @@ typedef struct ambience_error {
 /// Measures 100 Σ|E − Eref| / ΣEref over the channels of 64 free points within 20 m of the camera,
 /// with random normals.
 /// @param second  the key of the points
-/// @param percent out; NAN if there is no free point, or no light
+/// @param percent out; NAN if there are no free points, or none of them has light
 /// @return as alp_reference_irradiance
 alp_result ambience_error_measure(const ambience_error *e, flight_run *run,
                                   const flight_frame *frame, uint32_t second, double *percent);
