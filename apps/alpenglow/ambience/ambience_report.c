@@ -120,13 +120,14 @@ static json_t *make_options(const flight_run *run)
     const alp_ambience_options *o = &run->options;
     const double cell = o->size / pow(3.0, (double)o->depth);
     const bool timed = run->budget_ms > 0.0;
-    return json_pack("{s:o, s:o, s:o, s:o, s:I, s:I, s:o, s:o, s:b, s:b, s:s, s:s, s:o}", "fps",
-                     json_number(run->fps), "budget",
+    return json_pack("{s:o, s:o, s:o, s:o, s:I, s:I, s:o, s:o, s:b, s:b, s:o, s:s, s:s, s:o}",
+                     "fps", json_number(run->fps), "budget",
                      timed ? json_null() : json_integer((json_int_t)run->budget), "budget_ms",
                      timed ? json_number(run->budget_ms) : json_null(), "cell", json_number(cell),
                      "depth", (json_int_t)o->depth, "anchors", (json_int_t)o->anchor_limit,
                      "lifetime", json_number(o->lifetime), "fade", json_number(o->fade), "flat",
-                     (int)o->flat, "visibility", (int)o->visibility, "lookup",
+                     (int)o->flat, "visibility", (int)o->visibility, "detail",
+                     json_number(run->detail), "lookup",
                      o->lookup == ALP_AMBIENCE_OURS ? "ours" : "conformance", "prediction",
                      run->known != NULL ? "path" : "velocity", "day",
                      run->day > 0.0 ? json_number(run->day) : json_null());

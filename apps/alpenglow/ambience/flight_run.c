@@ -63,7 +63,8 @@ int flight_run_refuse(const command_line *a)
                {"--prediction", OPTION_PREDICTION},
                {"--day", OPTION_DAY},
                {"--visibility", OPTION_VISIBILITY},
-               {"--warm", OPTION_WARM}};
+               {"--warm", OPTION_WARM},
+               {"--detail", OPTION_DETAIL}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         if (a->values[own[i].id].given) {
             return usage_error(a->command, "%s: does not apply to --with %s", own[i].name,
@@ -177,6 +178,7 @@ static alp_result make_volume(const command_line *a, flight_run *run)
     alp_ambience_sampler_options o = alp_ambience_sampler_options_default();
     o.lighting = run->lighting;
     o.direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
+    o.detail = (float)run->detail;
     o.seed = a->values[OPTION_SEED].whole;
     run->options = make_options(run, a);
     alp_result result = alp_ambience_create(run->session->context, &run->options, &run->ambience);
@@ -197,6 +199,7 @@ int flight_run_open(session *s, const command_line *a, const alp_lighting_option
     *run = (flight_run){
         .session = s, .noon = *lighting, .lighting = *lighting, .opened = clock_seconds()};
     run->day = a->values[OPTION_DAY].given ? a->values[OPTION_DAY].real : 0.0;
+    run->detail = a->values[OPTION_DETAIL].real;
     run->budget = (uint32_t)a->values[OPTION_BUDGET].whole;
     if (a->values[OPTION_BUDGET_MS].given) {
         run->budget = BUDGET_LIMIT;

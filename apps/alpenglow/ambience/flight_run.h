@@ -21,6 +21,7 @@ typedef struct flight_run {
     uint64_t light_step;           // of the lighting that the sampler has
     double start, end;             // seconds; the end is that of the flight, or --time
     double fps;
+    double detail;    // metres, of the scene that is sampled; 0 = the scene itself
     uint32_t budget;  // samples a frame
     double budget_ms; // 0 = no limit
     // Done, and all. Frames lie before the end; where light is read after the flight, a last one

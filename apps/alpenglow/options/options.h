@@ -80,6 +80,7 @@ typedef enum option_id {
     OPTION_LIFETIME,
     OPTION_FADE,
     OPTION_FLAT,
+    OPTION_DETAIL,
     OPTION_CSV,
     OPTION_PREVIEW,
     OPTION_ERRORS,

@@ -169,6 +169,18 @@ static const option rows[] = {
      .initial = "on",
      .help = "Fill the volume round the first camera before the flight begins, as a loading screen "
              "would. off: light of the first seconds fades in."},
+    {.id = OPTION_DETAIL,
+     .commands = FLIGHT_COMMANDS,
+     .group = GROUP_FLIGHT,
+     .kind = KIND_REAL,
+     .name = "--detail",
+     .value = "M",
+     .minimum = 0,
+     .maximum = 1e6,
+     .unit = "metres",
+     .initial = "0",
+     .help = "Sample a copy of the scene with fewer triangles, whose surfaces move by at most so "
+             "much. Faster where triangles are many, and less exact. 0: the scene itself."},
     {.id = OPTION_LOOKUP,
      .commands = IN_AMBIENCE,
      .group = GROUP_FLIGHT,
@@ -203,9 +215,9 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--pictures",
      .value = "DIR",
-     .help = "Folder for a picture of each second, made if missing: frame_0001.png and so on. "
-             "Left: the camera's view lit by the volume. Right: by one constant colour, fitted to "
-             "the scene."},
+     .help = "Folder for one picture a second of the flight, not one a frame, made if missing: "
+             "frame_0001.png and so on. Left: the camera's view lit by the volume. Right: by one "
+             "constant colour, fitted to the scene."},
     {.id = OPTION_PREVIEW,
      .commands = IN_AMBIENCE,
      .group = GROUP_OUTPUT,
