@@ -189,12 +189,9 @@ static alp_result render_tile(ambience_pictures *p, const flight_frame *frame)
     o.object.kind =
         p->arguments->values[OPTION_PREVIEW].choice == 0 ? ALP_OBJECT_SPHERE : ALP_OBJECT_TEAPOT;
     o.object.radius = (float)radius;
-    double length = 0.0;
+    const double length = flight_distance(c->position, c->target);
     for (int k = 0; k < 3; k++) {
-        length += (c->target[k] - c->position[k]) * (c->target[k] - c->position[k]);
-    }
-    for (int k = 0; k < 3; k++) {
-        const double forward = (c->target[k] - c->position[k]) / sqrt(length);
+        const double forward = (c->target[k] - c->position[k]) / length;
         o.object.position[k] = (float)(c->position[k] + away * forward);
     }
     const alp_result result = render_volume(p, &o, &p->tiles[p->tile_count]);

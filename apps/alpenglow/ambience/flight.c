@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ambience/flight.h"
 
+#include "ambience/flight_terrain.h"
 #include "messages.h"
 #include "number_lines.h"
 
@@ -11,12 +12,6 @@
 enum { COLUMNS = 8, NEEDED = 7, POINT_LIMIT = 1 << 20 };
 
 static const double DEFAULT_VFOV = 60.0; // degrees
-
-static double distance(const double a[3], const double b[3])
-{
-    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]));
-}
 
 static const char *fault_of(const number_line *line)
 {
@@ -33,7 +28,7 @@ static const char *fault_of(const number_line *line)
                           : "a number is not finite, or beyond 1e15; give metres";
         }
     }
-    if (!(distance(n + 1, n + 4) > 0.0)) {
+    if (!(flight_distance(n + 1, n + 4) > 0.0)) {
         return "the target is the position; give another point to look at";
     }
     if (line->count == COLUMNS && !(n[7] >= 1e-3 && n[7] <= 179.0)) {
@@ -42,10 +37,10 @@ static const char *fault_of(const number_line *line)
     return NULL;
 }
 
-static flight_point make_point(const number_line *line, const double origin[3])
+/// @param n    t,px,py,pz,tx,ty,tz
+/// @param vfov degrees
+static flight_point make_point(const double n[NEEDED], double vfov, const double origin[3])
 {
-    const double *n = line->numbers;
-    const double vfov = line->count == COLUMNS ? n[7] : DEFAULT_VFOV;
     flight_point p = {.time = n[0], .vfov = vfov * (M_PI / 180.0)};
     for (int k = 0; k < 3; k++) {
         p.position[k] = n[1 + k] - origin[k];
@@ -79,7 +74,8 @@ static const char *keep(void *user, const number_line *line)
         r->room = r->room > 0 ? 2 * r->room : 64;
         f->points = allocate_or_exit(f->points, r->room * sizeof *f->points);
     }
-    f->points[f->count++] = make_point(line, r->origin);
+    const double vfov = line->count == COLUMNS ? line->numbers[7] : DEFAULT_VFOV;
+    f->points[f->count++] = make_point(line->numbers, vfov, r->origin);
     return NULL;
 }
 
@@ -89,6 +85,16 @@ int flight_read(const char *path, const double origin[3], flight *f)
     *f = (flight){0};
     return number_lines_read(path, COLUMNS,
                              "holds no flight; give lines of t,px,py,pz,tx,ty,tz[,vfov]", keep, &r);
+}
+
+void flight_terrain(flight *f)
+{
+    const double origin[3] = {0.0, 0.0, 0.0};
+    f->count = flight_terrain_count;
+    f->points = allocate_or_exit(NULL, f->count * sizeof *f->points);
+    for (uint32_t i = 0; i < f->count; i++) {
+        f->points[i] = make_point(flight_terrain_lines[i], DEFAULT_VFOV, origin);
+    }
 }
 
 void flight_clear(flight *f)
@@ -130,6 +136,11 @@ static flight_camera stand(const flight_point *p)
     return c;
 }
 
+double flight_distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
 flight_camera flight_at(const flight *f, double time)
 {
     const flight_point *last = &f->points[f->count - 1];
@@ -147,7 +158,7 @@ flight_camera flight_at(const flight *f, double time)
         c.target[k] = a->target[k] + t * (b->target[k] - a->target[k]);
         c.velocity[k] = (b->position[k] - a->position[k]) / length;
     }
-    if (!(distance(c.position, c.target) > 0.0)) { // between lines that look at each other
+    if (!(flight_distance(c.position, c.target) > 0.0)) { // between lines that look at each other
         memcpy(c.target, b->target, sizeof c.target);
     }
     return c;
@@ -157,7 +168,7 @@ alp_camera flight_view(const flight_camera *c)
 {
     alp_camera view = {.vertical_fov = (float)c->vfov};
     // Looking straight up or down, +Y cannot be up.
-    const double length = distance(c->position, c->target);
+    const double length = flight_distance(c->position, c->target);
     const bool vertical = fabs(c->target[1] - c->position[1]) > 0.9999 * length;
     for (int k = 0; k < 3; k++) {
         view.position[k] = (float)c->position[k];

@@ -31,7 +31,7 @@ typedef struct flight_camera {
 /// @param origin of the scene in the world of its file: subtracted
 /// @return EXIT_DONE, or EXIT_FAILED after a message that names file and line
 int flight_read(const char *path, const double origin[3], flight *flight);
-/// The flight through builtin:terrain: 20 s at 30 m/s past lake, wood and alley.
+/// The flight through builtin:terrain.
 void flight_terrain(flight *flight);
 void flight_clear(flight *flight);
 
@@ -45,5 +45,7 @@ enum { FLIGHT_STAND = 5 };
 flight_camera flight_at(const flight *flight, double time);
 /// The same as a camera of pictures.
 alp_camera flight_view(const flight_camera *camera);
+/// Metres between two places.
+double flight_distance(const double a[3], const double b[3]);
 
 #endif
