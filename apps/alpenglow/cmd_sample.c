@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// Choices of --with, in its order; the ambient models stand first, in theirs.
 enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE, WITH_AMBIENCE };
@@ -36,6 +37,12 @@ static int check_options(const command_line *a)
             return usage_error(COMMAND_SAMPLE, "%s: does not apply to --with %s", read_by[i].name,
                                with->text);
         }
+    }
+    if (with->choice == WITH_AMBIENCE && a->values[OPTION_PATH].given &&
+        strcmp(a->values[OPTION_PATH].text, "-") == 0 &&
+        strcmp(a->values[OPTION_AT].text, "-") == 0) {
+        return usage_error(COMMAND_SAMPLE, "--path and --at are both standard input; give one of "
+                                           "them a file");
     }
     const int code = with->choice == WITH_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
     return code == EXIT_DONE ? probe_file_check(a) : code;

@@ -24,6 +24,40 @@ static bool prints_summary(const command_line *a)
            !output_is_stdout(a->values[OPTION_JSON].text) && !a->values[OPTION_QUIET].given;
 }
 
+/// A file of results must not replace what is read. @param name "--csv" or "--json"
+static int check_result(const command_line *a, const char *name, const char *result)
+{
+    const char *path = a->values[OPTION_PATH].text;
+    if (result == NULL) {
+        return EXIT_DONE;
+    }
+    const bool is_path = path != NULL && output_is_same(result, path);
+    if (!output_is_stdout(result) && (is_path || output_is_same(result, a->operands[0]))) {
+        return usage_error(COMMAND_AMBIENCE, "%s %s: %s has the same name; give another", name,
+                           result, is_path ? "--path" : "SCENE");
+    }
+    return output_check_json(result, a->values[OPTION_FORCE].given);
+}
+
+/// Refuses options of results that are not wanted.
+static int check_needs(const command_line *a)
+{
+    static const struct {
+        const char *name;
+        option_id id;
+    } of_pictures[] = {{"--preview", OPTION_PREVIEW}, {"--resolution", OPTION_RESOLUTION}};
+    for (size_t i = 0; i < sizeof of_pictures / sizeof *of_pictures; i++) {
+        if (a->values[of_pictures[i].id].given && !a->values[OPTION_PICTURES].given) {
+            return usage_error(COMMAND_AMBIENCE, "%s: needs a folder; give --pictures DIR",
+                               of_pictures[i].name);
+        }
+    }
+    if (a->values[OPTION_REFERENCE_SAMPLES].given && a->values[OPTION_ERRORS].choice == 0) {
+        return usage_error(COMMAND_AMBIENCE, "--reference-samples: does not apply to --errors off");
+    }
+    return EXIT_DONE;
+}
+
 static int check_options(const command_line *a)
 {
     const char *csv = a->values[OPTION_CSV].text, *json = a->values[OPTION_JSON].text;
@@ -36,15 +70,9 @@ static int check_options(const command_line *a)
     if (csv != NULL && json != NULL && output_is_same(csv, json)) {
         return usage_error(COMMAND_AMBIENCE, "--csv and --json name one file: %s", csv);
     }
-    if (a->values[OPTION_PREVIEW].given && !a->values[OPTION_PICTURES].given) {
-        return usage_error(COMMAND_AMBIENCE, "--preview: needs a folder; give --pictures DIR");
-    }
-    if (a->values[OPTION_REFERENCE_SAMPLES].given && a->values[OPTION_ERRORS].choice == 0) {
-        return usage_error(COMMAND_AMBIENCE, "--reference-samples: does not apply to --errors off");
-    }
-    const bool overwrite = a->values[OPTION_FORCE].given;
-    code = csv != NULL ? output_check_json(csv, overwrite) : EXIT_DONE;
-    return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
+    code = check_needs(a);
+    code = code == EXIT_DONE ? check_result(a, "--csv", csv) : code;
+    return code == EXIT_DONE ? check_result(a, "--json", json) : code;
 }
 
 // --- seconds -------------------------------------------------------------------------------------

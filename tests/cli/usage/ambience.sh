@@ -41,6 +41,12 @@ fly --errors off --reference-samples 64
 fly --resolution 0x9
 fly --csv - --json -
 fly --csv out --json out
+fly --csv flight.csv -f
+fly --json ./flight.csv -f
+fly --json scene.glb -f
+fly --resolution 64x36
+fly --path
+fly --flat
 fly --pat flight.csv
 fly -o out.png
 for command in "render scene.glb -o out.png" "sample scene.glb --at points.csv"; do
@@ -53,4 +59,5 @@ for command in "render scene.glb -o out.png" "sample scene.glb --at points.csv";
     try $command --with constant --detail 1
     try $command --with probes --lifetime 5
 done
+try sample scene.glb --at - --with ambience --path -
 try sample scene.glb --at points.csv --with ambience --path flight.csv --samples 9
