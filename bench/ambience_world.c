@@ -253,7 +253,7 @@ ambience_place ambience_world_place(const ambience_world *world, int place)
 
 // --- points with their truth ---------------------------------------------------------------------
 
-static double draw(uint64_t *state)
+double ambience_world_draw(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
     return (double)(*state >> 11) * 0x1p-53;
@@ -266,7 +266,7 @@ static void draw_in_ball(uint64_t *state, double place[3])
     do {
         square = 0.0;
         for (int k = 0; k < 3; k++) {
-            place[k] = 2.0 * draw(state) - 1.0;
+            place[k] = 2.0 * ambience_world_draw(state) - 1.0;
             square += place[k] * place[k];
         }
     } while (square > 1.0 || square < 1e-6);

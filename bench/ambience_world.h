@@ -41,6 +41,9 @@ typedef struct ambience_place {
 /// A fixed place of the terrain that is hard to light.
 ambience_place ambience_world_place(const ambience_world *world, int place);
 
+/// A random number in [0, 1).
+double ambience_world_draw(uint64_t *state);
+
 /// Points with normals, and E there.
 typedef struct ambience_points {
     uint32_t count;

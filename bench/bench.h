@@ -13,6 +13,7 @@ typedef struct bench_options {
     bool quick;            // small sizes, one round: shows that it runs, the figures mean nothing
     bool markdown;         // tables for docs/
     const char *scene;     // this one in the place of the bench's own, or NULL
+    const char *pictures;  // folder of plots, or NULL
     const char *technique; // truth runs this one alone, or NULL
 } bench_options;
 

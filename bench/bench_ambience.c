@@ -156,12 +156,6 @@ static void measure_sampling(speed_bench *b, const char *name, bench_table *tabl
 
 // --- look-ups and updates ------------------------------------------------------------------------
 
-static double draw(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /// Seconds of a look-up, median of rounds.
 static double time_reads(const speed_bench *b, ambience_view view, double reach)
 {
@@ -172,7 +166,8 @@ static double time_reads(const speed_bench *b, ambience_view view, double reach)
     uint64_t state = 1;
     for (uint32_t i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) {
-            positions[i][k] = b->camera.position[k] + reach * (2.0 * draw(&state) - 1.0);
+            positions[i][k] =
+                b->camera.position[k] + reach * (2.0 * ambience_world_draw(&state) - 1.0);
         }
         normals[i][i % 3] = 1.0f;
     }

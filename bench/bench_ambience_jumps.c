@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// How light at fixed points changes from frame to frame while a camera flies by: sun and geometry
-// stand still, so each change is an artefact of the volume.
-#include "ambience_world.h"
+// How light changes from frame to frame at fixed points while a camera flies by, and along a line
+// in space: sun and geometry stand still, so each jump is an artefact of the volume.
+#include "ambience_line.h"
+#include "plot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define SECONDS 5.0
-enum { HALVES = 10, WAYS = 4, PATHS = 16, FRAMES_MOST = 1024 };
+enum { HALVES = 10, WAYS = 4, PATHS = 16, LINE_PATHS = 2048, FRAMES_MOST = 1024 };
 static const char *const names[WAYS] = {"ours", "ours, no fade", "conformance",
                                         "conformance, no fade"};
 
@@ -19,6 +20,8 @@ typedef struct jumps_bench {
     float (*before[2])[3];             // E at the last frame, of both views
     double largest[WAYS][FRAMES_MOST]; // change of each frame, W·m⁻²
     double mean;                       // E of the first run
+    float *series[2];                  // [points][frames] E by ours, with fade and without
+    ambience_line line;                // at half of the flight, with fade
     int frames;
     double rate;
 } jumps_bench;
@@ -29,6 +32,7 @@ static void compare_frame(jumps_bench *b, const ambience_run *run, int frame, bo
     ambience_points *p = &b->points;
     for (int view = 0; view < 2; view++) {
         const int way = 2 * view + (fades ? 0 : 1);
+        float *series = b->series[fades ? 0 : 1];
         double most = 0.0;
         ambience_view_read(now, view == 0 ? VIEW_OURS : VIEW_CONFORMANCE, p->count,
                            (const double(*)[3])p->positions, (const float(*)[3])p->normals,
@@ -38,8 +42,15 @@ static void compare_frame(jumps_bench *b, const ambience_run *run, int frame, bo
             most = fmax(most, fabs(e - (double)b->before[view][i / 3][i % 3]));
             b->mean += way == 0 ? e / (3.0 * p->count * b->frames) : 0.0;
         }
+        for (uint32_t i = 0; i < p->count && view == 0; i++) {
+            const float *e = p->values[i];
+            series[(int)i * b->frames + frame] = (e[0] + e[1] + e[2]) / 3.0f;
+        }
         b->largest[way][frame] = frame > 0 ? most : 0.0;
         memcpy(b->before[view], p->values, p->count * sizeof *p->values);
+    }
+    if (fades && frame == b->frames / 2) {
+        ambience_line_read(now, &b->line);
     }
     alp_ambience_end_read(run->ambience, now);
 }
@@ -96,7 +107,7 @@ static void print_summary(const jumps_bench *b)
     bench_table_print(&table, b->options);
 }
 
-static void print_plot(const jumps_bench *b)
+static void print_halves(const jumps_bench *b)
 {
     static bench_table table;
     bench_table_start(&table, "Largest change of a frame in each half second, %",
@@ -115,6 +126,113 @@ static void print_plot(const jumps_bench *b)
     bench_table_print(&table, b->options);
 }
 
+static double error_of(const ambience_line *line, const float *values)
+{
+    double apart = 0.0, sum = 0.0;
+    for (int i = 0; i < LINE_TRUTHS; i++) {
+        const int at = i * LINE_STEPS / (LINE_TRUTHS - 1);
+        apart += fabs((double)values[at] - (double)line->truth[i]);
+        sum += (double)line->truth[i];
+    }
+    return 100.0 * apart / sum;
+}
+
+static void print_line(const jumps_bench *b)
+{
+    static bench_table table;
+    const ambience_line *l = &b->line;
+    bench_table_start(&table, "Steps along a line of 20 m",
+                      "Half a flight's way about its middle, anchors frozen: the largest change of "
+                      "E in a step of 1 mm, in percent of the mean E, and the mean error at 41 "
+                      "points.",
+                      "look-up|largest step, %|error, %");
+    bench_table_add(&table, "ours|%.3f|%.1f", 100.0 * ambience_line_jump(l->ours) / b->mean,
+                    error_of(l, l->ours));
+    bench_table_add(&table, "conformance|%.3f|%.1f",
+                    100.0 * ambience_line_jump(l->conformance) / b->mean,
+                    error_of(l, l->conformance));
+    bench_table_print(&table, b->options);
+}
+
+// --- picture -------------------------------------------------------------------------------------
+
+/// The point whose light jumps most in a frame without fade.
+static int find_liveliest(const jumps_bench *b)
+{
+    float most = 0.0f;
+    int found = 0;
+    for (int i = 0; i < (int)b->points.count; i++) {
+        const float *e = &b->series[1][i * b->frames];
+        for (int frame = 1; frame < b->frames; frame++) {
+            const float change = fabsf(e[frame] - e[frame - 1]);
+            found = change > most ? i : found;
+            most = fmaxf(most, change);
+        }
+    }
+    return found;
+}
+
+static void scale(float *values, int count, double factor)
+{
+    for (int i = 0; i < count; i++) {
+        values[i] *= (float)factor;
+    }
+}
+
+/// Draws the series and the line, which it scales to percent.
+static bool draw_plot(jumps_bench *b)
+{
+    char path[1024];
+    ambience_line *l = &b->line;
+    const double percent = 100.0 / b->mean;
+    const int at = find_liveliest(b) * b->frames;
+    scale(&b->series[0][at], b->frames, percent);
+    scale(&b->series[1][at], b->frames, percent);
+    scale(l->ours, LINE_STEPS + 1, percent);
+    scale(l->conformance, LINE_STEPS + 1, percent);
+    scale(l->truth, LINE_TRUTHS, percent);
+    const plot_panel panels[2] = {
+        {.title = "In time: irradiance at a fixed point, % of the mean",
+         .across = "seconds of the flight",
+         .high = SECONDS,
+         .lines = {{.name = "with fade", .values = &b->series[0][at], .count = b->frames},
+                   {.name = "without fade", .values = &b->series[1][at], .count = b->frames}},
+         .line_count = 2},
+        {.title = "In space: irradiance along a line, % of the mean",
+         .across = "metres",
+         .high = LINE_METRES,
+         .lines = {{.name = "ours", .values = l->ours, .count = LINE_STEPS + 1},
+                   {.name = "conformance", .values = l->conformance, .count = LINE_STEPS + 1},
+                   {.name = "truth", .values = l->truth, .count = LINE_TRUTHS, .dots = true}},
+         .line_count = 3},
+    };
+    snprintf(path, sizeof path, "%s/ambience-jumps.svg", b->options->pictures);
+    return plot_write(path, "Irradiance of the ambience volume in time and in space", panels, 2);
+}
+
+// --- all -----------------------------------------------------------------------------------------
+
+static void open_series(jumps_bench *b)
+{
+    for (int i = 0; i < 2; i++) {
+        b->before[i] = bench_allocate(b->points.count, sizeof *b->before[i]);
+        b->series[i] =
+            bench_allocate((size_t)b->points.count * (size_t)b->frames, sizeof *b->series[i]);
+    }
+    ambience_line_open(&b->world, WORLD_STANDS + 0.5 * SECONDS, &b->line);
+}
+
+static void close_bench(jumps_bench *b)
+{
+    for (int i = 0; i < 2; i++) {
+        free(b->before[i]);
+        free(b->series[i]);
+    }
+    ambience_line_close(&b->line);
+    ambience_points_close(&b->points);
+    ambience_world_close(&b->world);
+}
+
 int bench_ambience_jumps(const bench_options *options)
 {
     static jumps_bench b;
@@ -128,17 +246,17 @@ int bench_ambience_jumps(const bench_options *options)
     alp_ambience_camera middle;
     ambience_world_fly(&b.world, 0, WORLD_STANDS + 0.5 * SECONDS, &middle);
     bool good = ambience_points_open(&b.world, middle.position, WORLD_REACH, 7, PATHS, &b.points);
-    for (int i = 0; i < 2 && good; i++) {
-        b.before[i] = bench_allocate(b.points.count, sizeof *b.before[i]);
+    if (good) {
+        open_series(&b);
     }
-    good = good && fly(&b, true) && fly(&b, false);
+    good = good && fly(&b, true) && fly(&b, false) &&
+           ambience_line_trace(&b.world, options->quick ? PATHS : LINE_PATHS, &b.line);
     if (good) {
         print_summary(&b);
-        print_plot(&b);
+        print_halves(&b);
+        print_line(&b);
     }
-    free(b.before[0]);
-    free(b.before[1]);
-    ambience_points_close(&b.points);
-    ambience_world_close(&b.world);
+    good = good && (options->pictures == NULL || draw_plot(&b));
+    close_bench(&b);
     return good ? 0 : 1;
 }

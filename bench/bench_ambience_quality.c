@@ -266,7 +266,7 @@ static void print_models(const quality_bench *b, int flights)
              "Worst: the worst second of all flights. The truth's own error is at most %.2f %%.",
              100.0 * b->own);
     bench_table_start(&table, "Models along three flights, error in %", note,
-                      "model|flying 1|2|3|after 1|2|3|worst|bias after");
+                      "model|flying 1|flying 2|flying 3|after 1|after 2|after 3|worst|bias after");
     for (int m = 0; m < MODELS; m++) {
         double worst = 0.0, bias = 0.0, all[2][WORLD_FLIGHTS] = {{0.0}};
         for (int f = 0; f < flights; f++) {
@@ -287,13 +287,14 @@ static void print_models(const quality_bench *b, int flights)
 
 static void start_memory(bench_table *table)
 {
-    bench_table_start(table, "Bytes an anchor after a flight",
-                      "Anchors that hold light, and all bytes of the volume over them: graph, "
-                      "anchors and snapshots; distances for visibility; kept hits. Samples: new, "
-                      "renewed and relit. Processor ms a frame: updates and samples. Landed: when "
-                      "the flight ends; the others, after five seconds of rest.",
-                      "flight|landed|bytes|anchors|solids|nodes|samples|bytes|visibility|hits|ms a "
-                      "frame");
+    bench_table_start(
+        table, "Bytes an anchor after a flight",
+        "Anchors that hold light, and all bytes of the volume over them: graph, "
+        "anchors and snapshots; distances for visibility; kept hits. Samples: new, "
+        "renewed and relit. Processor ms a frame: updates and samples. Landed: when "
+        "the flight ends; the others, after five seconds of rest.",
+        "flight|landed|bytes then|anchors|solids|nodes|samples|bytes|visibility|hits|ms a "
+        "frame");
 }
 
 static uint64_t own_bytes(const alp_ambience_info *info)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs benches: `alpenglow-bench [ROOM …] [--quick] [--markdown]`. `alpenglow bench` starts this.
+// Runs benches: `alpenglow-bench [ROOM …] [--quick] [--markdown] [--pictures DIR]`. `alpenglow
+// bench` starts this.
 #include "bench.h"
 
 #include <string.h>
@@ -46,6 +47,8 @@ int main(int count, char **words)
             options.markdown = true;
         } else if (strcmp(words[i], "--scene") == 0 && i + 1 < count) {
             options.scene = words[++i];
+        } else if (strcmp(words[i], "--pictures") == 0 && i + 1 < count) {
+            options.pictures = words[++i];
         } else if (strcmp(words[i], "--technique") == 0 && i + 1 < count) {
             options.technique = words[++i];
         } else {
@@ -53,7 +56,7 @@ int main(int count, char **words)
                     "alpenglow bench: there is no '%s'; "
                     "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
                     "sh, probes, fields, ambience, formats, --quick, "
-                    "--markdown, --scene NAME, --technique NAME\n",
+                    "--markdown, --scene NAME, --pictures DIR, --technique NAME\n",
                     words[i]);
             return EXIT_USAGE;
         }

@@ -186,8 +186,8 @@ def fault_of_quoted(root, place, room, target):
         known = (root / place).parent / target, root / "src" / target
         return None if any(p.is_file() for p in known) else f'there is no "{target}"'
     if room is None:
-        beside = (root / place).parent / target
-        return None if beside.is_file() else f'an app may not include "{target}": it is not its own'
+        own = root / "/".join(place.split("/")[:2]) / target # written from the app's folder
+        return None if own.is_file() else f'an app may not include "{target}": it is not its own'
     other = target.split("/")[0]
     if not target.endswith(".h"):
         return f'"{target}" is not a header'

@@ -85,9 +85,18 @@ fields() {
     "$tests/test_truth" test_probe_leak | sed -n 's/^leak: //p'
 }
 
-ambience() {
-    head_of ambience "Live ambience"
-    section 'The volume along flights' ambience
+ambience() { # the plot goes to docs/pictures
+    local head tables
+    head=$(head_of ambience "Live ambience")
+    tables=$("$(dirname "$command")/alpenglow-bench" ambience --markdown --pictures docs/pictures)
+    printf '%s\n\n## Goals\n\n' "$head"
+    scripts/make_tables.py text 'ambience goals'
+    printf '\n'
+    scripts/make_tables.py goals <<<"$tables"
+    printf '\n'
+    scripts/make_tables.py text 'ambience plot'
+    printf '\n## The volume along flights\n\n    alpenglow bench ambience\n\n'
+    scripts/make_tables.py captions <<<"$tables"
 }
 
 write_page() {

@@ -4,6 +4,8 @@
 
     make_tables.py text NAME          prints the text `# NAME` of scripts/captions.md
     make_tables.py captions           copies a bench's Markdown, each table with its caption
+    make_tables.py goals              a table of the goals of ambience, met or missed, from its bench's
+                                      Markdown
     make_tables.py peers              copies the tables of scripts/peer_speed.py, each with its caption
     make_tables.py readme PEERS DOC   writes the table of DOC between its markers, from that page
 
@@ -90,11 +92,66 @@ def write_readme(page, document):
                         encoding="utf-8")
 
 
+def rows_of(lines):
+    """The rows of all tables of a bench, by title: each a dictionary by column."""
+    tables, title, names = {}, None, None
+    for line in lines:
+        if line.startswith("### "):
+            title, names = line[4:].strip(), None
+        elif line.startswith("|") and title:
+            if names is None:
+                names = cells(line)
+            elif not line.startswith(("|:", "|-")):
+                tables.setdefault(title, []).append(dict(zip(names, cells(line))))
+    return tables
+
+
+def number(text):
+    return float(text.replace(",", ""))
+
+
+def goals(tables):
+    """Each goal, the least or most that it wants, and each figure that it is held against."""
+    anchors = tables["Anchors, one worker, anchors/s"]
+    lookups = tables["Look-ups, one thread, µs a point"]
+    kept = {r["way"]: r for r in tables["Anchors kept current, one worker, ms a frame"]}
+    ours = next(r for r in tables["Models along three flights, error in %"] if r["model"] == "ours")
+    ended = tables["Bytes an anchor after a flight"]
+    jumps = tables["Changes from frame to frame"][0]
+    steps = tables["Steps along a line of 20 m"][0]
+    upkeep = "Kept current in 2 ms a frame: ms for 1,000 anchors, "
+    for row in anchors:
+        yield f"Sampled, of the raw packets, {row['scene']}", "≥", .6, [row["ratio"]]
+    for row in anchors:
+        two = f"{2 * number(row['traced']):.0f}"
+        yield f"Sampled, anchors/s, twice one worker, {row['scene']}", "≥", 6000, [two]
+    for row in anchors:
+        yield f"Relit, of sampled, {row['scene']}", "≥", 2, [row["traced / relit"]]
+    for way in kept:
+        yield upkeep + way, "≤", 2, [kept[way]["per 1,000"]]
+    yield "Look-up, µs, the slowest", "≤", .5, [max((r["ours"] for r in lookups), key=number)]
+    yield "Bytes an anchor, at the end of each flight", "≤", 1000, [r["bytes then"] for r in ended]
+    yield "Bytes an anchor, after 5 s of rest", "≤", 1000, [r["bytes"] for r in ended]
+    yield "Error at 30 m/s, %, each flight", "≤", 10, [ours[f"flying {k}"] for k in "123"]
+    yield "Error after 5 s of rest, %, each flight", "≤", 5, [ours[f"after {k}"] for k in "123"]
+    yield "Largest change in a frame of a flight, % of the mean", "≤", 1, [jumps["largest, %"]]
+    yield "Largest change in 1 mm of a line, % of the mean", "≤", .1, [steps["largest step, %"]]
+
+
+def print_goals(lines):
+    print("| goal | asked | measured | |\n|:---|---:|---:|:---|")
+    for name, sign, bound, figures in goals(rows_of(lines)):
+        held = all(number(f) >= bound if sign == "≥" else number(f) <= bound for f in figures)
+        print(f"| {name} | {sign} {bound:,} | {', '.join(figures)} | {'met' if held else 'missed'} |")
+
+
 def main():
     if sys.argv[1:2] == ["text"] and len(sys.argv) == 3:
         print(texts()[sys.argv[2]])
     elif sys.argv[1:] == ["captions"]:
         add_captions(sys.stdin)
+    elif sys.argv[1:] == ["goals"]:
+        print_goals(sys.stdin)
     elif sys.argv[1:] == ["peers"]:
         add_peer_captions(sys.stdin)
     elif sys.argv[1:2] == ["readme"] and len(sys.argv) == 4:

@@ -4,7 +4,7 @@
 #define COMMAND_BAKE_OPTIONS_H
 
 #include "lamps.h"
-#include "options.h"
+#include "options/options.h"
 #include "session.h"
 
 #include <alpenglow/alpenglow.h>

@@ -109,17 +109,9 @@ int command_bake(const command_line *a)
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
     session s;
-    code = session_open(&s, a);
-    if (code == EXIT_DONE) {
-        code = session_load(&s, a);
-    }
-    alp_image *sky = NULL;
-    if (code == EXIT_DONE) {
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &options.light.lighting, &sky);
-    }
+    alp_image *sky;
+    code = lighting_open(&s, a, &options.light.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
         code = bake(&s, a, &options);
     }

@@ -2,7 +2,7 @@
 // alpenglow bench: runs alpenglow-bench, a separate program, which uses internals of the library
 // and calls the ray tracer directly.
 #include "messages.h"
-#include "options.h"
+#include "options/options.h"
 
 #include <errno.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 // alpenglow compare: differences of two images, or of the maps of two baked assets.
 #include "compare_assets.h"
 #include "messages.h"
-#include "options.h"
+#include "options/options.h"
 #include "output.h"
 
 #include <alpenglow/alpenglow.h>

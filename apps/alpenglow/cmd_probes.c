@@ -117,11 +117,11 @@ static int bake(session *s, const command_line *a, alp_probe_options *o)
 
 int command_probes(const command_line *a)
 {
-    alp_lighting_options lighting = alp_lighting_options_default();
+    alp_lighting_options lighting;
     alp_probe_options options;
     lamp_list lamps;
     point_list points = {0};
-    alp_image *sky = NULL;
+    alp_image *sky;
     session s;
     alp_scene_info info = {0};
     int code = check_options(a);
@@ -133,13 +133,9 @@ int command_probes(const command_line *a)
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
-    code = session_open(&s, a);
-    code = code == EXIT_DONE ? session_load(&s, a) : code;
+    code = lighting_open(&s, a, &lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
         info = alp_scene_get_info(s.scene);
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &lighting, &sky);
     }
     if (code == EXIT_DONE && a->values[OPTION_AT].given) {
         code = points_read(a->values[OPTION_AT].text, false, info.origin, &points);

@@ -395,19 +395,11 @@ int command_render(const command_line *a)
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
     session s;
-    code = session_open(&s, a);
-    if (code == EXIT_DONE) {
-        code = session_load(&s, a);
-    }
+    alp_image *sky;
+    code = lighting_open(&s, a, &options.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
         code = find_camera(&s, a, &options);
-    }
-    alp_image *sky = NULL;
-    if (code == EXIT_DONE) {
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &options.lighting, &sky);
     }
     if (code == EXIT_DONE) {
         code = render(&s, a, &options);

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// Choices of --with, in its order; the ambient models stand first, in theirs.
 enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE, WITH_AMBIENCE };
@@ -36,6 +37,12 @@ static int check_options(const command_line *a)
             return usage_error(COMMAND_SAMPLE, "%s: does not apply to --with %s", read_by[i].name,
                                with->text);
         }
+    }
+    if (with->choice == WITH_AMBIENCE && a->values[OPTION_PATH].given &&
+        strcmp(a->values[OPTION_PATH].text, "-") == 0 &&
+        strcmp(a->values[OPTION_AT].text, "-") == 0) {
+        return usage_error(COMMAND_SAMPLE, "--path and --at are both standard input; give one of "
+                                           "them a file");
     }
     const int code = with->choice == WITH_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
     return code == EXIT_DONE ? probe_file_check(a) : code;
@@ -135,26 +142,20 @@ static int sample(session *s, const command_line *a, const alp_lighting_options 
 
 int command_sample(const command_line *a)
 {
-    alp_lighting_options lighting = alp_lighting_options_default();
+    alp_lighting_options lighting;
     lamp_list lamps;
     point_list points = {0};
-    alp_image *sky = NULL;
+    alp_image *sky;
     session s;
     int code = check_options(a);
     code = code == EXIT_DONE ? lighting_read(a, &lighting, &lamps) : code;
     if (code != EXIT_DONE) {
         return code;
     }
-    interrupt_install();
-    code = session_open(&s, a);
-    code = code == EXIT_DONE ? session_load(&s, a) : code;
+    code = lighting_open(&s, a, &lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
         const alp_scene_info info = alp_scene_get_info(s.scene);
         code = points_read(a->values[OPTION_AT].text, true, info.origin, &points);
-    }
-    if (code == EXIT_DONE) {
-        lighting_place(&s, a, &lamps);
-        code = lighting_load_sky(&s, a, &lighting, &sky);
     }
     code = code == EXIT_DONE ? sample(&s, a, &lighting, &points) : code;
     alp_image_destroy(sky);

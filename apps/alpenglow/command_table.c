@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The commands and the built-in scenes of the contract, built or not.
-#include "options.h"
+#include "options/options.h"
 
 #include <stdlib.h>
 

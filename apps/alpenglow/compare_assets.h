@@ -3,7 +3,7 @@
 #ifndef COMMAND_COMPARE_ASSETS_H
 #define COMMAND_COMPARE_ASSETS_H
 
-#include "options.h"
+#include "options/options.h"
 
 #include <alpenglow/alpenglow.h>
 

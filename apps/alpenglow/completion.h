@@ -3,7 +3,7 @@
 #ifndef COMMAND_COMPLETION_H
 #define COMMAND_COMPLETION_H
 
-#include "options.h"
+#include "options/options.h"
 
 enum { COMPLETION_TEXT_SIZE = 512 };
 

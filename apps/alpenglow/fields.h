@@ -3,7 +3,7 @@
 #ifndef COMMAND_FIELDS_H
 #define COMMAND_FIELDS_H
 
-#include "flight_run.h"
+#include "ambience/flight_run.h"
 
 /// The parts behind the field of a command.
 typedef struct field_source {

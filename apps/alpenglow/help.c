@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // --help, written from the table.
-#include "options.h"
+#include "options/options.h"
 
 #include <stdio.h>
 #include <string.h>

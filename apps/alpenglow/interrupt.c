@@ -2,7 +2,7 @@
 // Ctrl-C and SIGTERM: end at once, or cancel long work.
 #include "interrupt.h"
 
-#include "options.h"
+#include "options/options.h"
 
 #include <signal.h>
 #include <stdatomic.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lighting.h"
 
+#include "interrupt.h"
 #include "output.h"
 
 #include <math.h>
@@ -105,12 +106,6 @@ int lighting_read(const command_line *a, alp_lighting_options *options, lamp_lis
     return code;
 }
 
-void lighting_place(const session *s, const command_line *a, lamp_list *lamps)
-{
-    const alp_scene_info info = alp_scene_get_info(s->scene);
-    (void)lamps_read(a, info.origin, lamps); // it was read before without a fault
-}
-
 /// Checks the sky's image, so that messages name its file.
 static int check_picture(const char *path, const alp_image *image)
 {
@@ -132,10 +127,9 @@ static int check_picture(const char *path, const alp_image *image)
     return text[0] == '\0' ? EXIT_DONE : failure(text);
 }
 
-int lighting_load_sky(session *s, const command_line *a, alp_lighting_options *options,
-                      alp_image **image)
+static int load_sky(session *s, const command_line *a, alp_lighting_options *options,
+                    alp_image **image)
 {
-    *image = NULL;
     if (options->sky.kind != ALP_SKY_IMAGE) {
         return EXIT_DONE;
     }
@@ -143,6 +137,21 @@ int lighting_load_sky(session *s, const command_line *a, alp_lighting_options *o
     const int code = session_end(s, alp_image_load(s->context, path, image));
     options->sky.image = *image;
     return code == EXIT_DONE ? check_picture(path, *image) : code;
+}
+
+int lighting_open(session *s, const command_line *a, alp_lighting_options *options,
+                  lamp_list *lamps, alp_image **sky)
+{
+    *sky = NULL;
+    interrupt_install();
+    int code = session_open(s, a);
+    code = code == EXIT_DONE ? session_load(s, a) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    (void)lamps_read(a, info.origin, lamps); // lighting_read found no fault in them
+    return load_sky(s, a, options, sky);
 }
 
 uint32_t lighting_bounces(const command_line *a)

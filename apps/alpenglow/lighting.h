@@ -10,14 +10,13 @@
 /// @return EXIT_DONE, or EXIT_USAGE after a message
 int lighting_read(const command_line *arguments, alp_lighting_options *options, lamp_list *lamps);
 
-/// Places the lamps in the scene that was loaded.
-void lighting_place(const session *s, const command_line *arguments, lamp_list *lamps);
-
-/// Loads the image of the sky, if --sky names one. `options` borrows it.
-/// @param image out: NULL, or the image, which the caller destroys after the work
-/// @return EXIT_DONE, or EXIT_FAILED after a message
-int lighting_load_sky(session *s, const command_line *arguments, alp_lighting_options *options,
-                      alp_image **image);
+/// Opens the session of a command, loads its scene, places the lamps in it, and loads the image of
+/// the sky. Ctrl-C then stops the command. `s` must not move in memory.
+/// @param options of lighting_read; borrows `lamps` and `sky`
+/// @param sky     out: NULL, or the image, which the caller destroys after the work
+/// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
+int lighting_open(session *s, const command_line *arguments, alp_lighting_options *options,
+                  lamp_list *lamps, alp_image **sky);
 
 /// --bounces
 uint32_t lighting_bounces(const command_line *arguments);

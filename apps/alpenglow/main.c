@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The main program: finds the command and runs it.
-#include "options.h"
+#include "options/options.h"
 
 #include <alpenglow/alpenglow.h>
 

@@ -3,7 +3,7 @@
 #ifndef COMMAND_MANUAL_TEXT_H
 #define COMMAND_MANUAL_TEXT_H
 
-#include "options.h"
+#include "options/options.h"
 
 enum { MANUAL_PAIRS = 6 };
 

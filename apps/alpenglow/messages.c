@@ -2,7 +2,7 @@
 // Messages of the library: printed at once; warnings are kept for the report.
 #include "messages.h"
 
-#include "options.h"
+#include "options/options.h"
 
 #include <stdlib.h>
 #include <string.h>

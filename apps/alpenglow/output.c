@@ -3,7 +3,7 @@
 #include "output.h"
 
 #include "messages.h"
-#include "options.h"
+#include "options/options.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,44 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "points.h"
 
+#include "number_lines.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS = 6, POINT_LIMIT = 1 << 26, MESSAGE_SIZE = 400 };
-
-int points_numbers(const char *line, double *numbers, int wanted, const char **end)
-{
-    const char *at = line;
-    int count = 0;
-    *end = line;
-    while (count < wanted) {
-        char *behind = NULL;
-        at += strspn(at, " \t");
-        at += count > 0 && (*at == ',' || *at == ';') ? 1 : 0; // an empty column is no number
-        numbers[count] = strtod(at, &behind);
-        if (behind == at || (*behind != '\0' && strchr(",; \t\r\n", *behind) == NULL)) {
-            break;
-        }
-        *end = at = behind;
-        count++;
-    }
-    return count;
-}
-
-bool points_are_names(const char *line)
-{
-    double number;
-    const char *end;
-    return points_numbers(line, &number, 1, &end) == 0 && strpbrk(line, "xX") != NULL;
-}
-
-int points_refuse(const char *path, unsigned long line, const char *text)
-{
-    char fault[MESSAGE_SIZE];
-    snprintf(fault, sizeof fault, "%s:%lu: %s", path, line, text);
-    return failure(fault);
-}
+enum { COLUMNS = 6, POINT_LIMIT = 1 << 26 };
 
 /// @param numbers [3 or 6]
 static const char *fault_of(const double *numbers, int count, int wanted)
@@ -58,90 +27,72 @@ static const char *fault_of(const double *numbers, int count, int wanted)
     return NULL;
 }
 
-static void grow(point_list *p, bool normals, uint32_t *room)
+typedef struct reading {
+    point_list *points;
+    double origin[3];
+    bool normals;
+    uint32_t room;
+} reading;
+
+static void grow(reading *r)
 {
-    if (p->count < *room) {
+    point_list *p = r->points;
+    if (p->count < r->room) {
         return;
     }
-    *room = *room > 0 ? 2 * *room : 256;
-    p->positions = allocate_or_exit(p->positions, *room * sizeof *p->positions);
-    p->texts = allocate_or_exit(p->texts, *room * sizeof *p->texts);
-    if (normals) {
-        p->normals = allocate_or_exit(p->normals, *room * sizeof *p->normals);
+    r->room = r->room > 0 ? 2 * r->room : 256;
+    p->positions = allocate_or_exit(p->positions, r->room * sizeof *p->positions);
+    p->texts = allocate_or_exit(p->texts, r->room * sizeof *p->texts);
+    if (r->normals) {
+        p->normals = allocate_or_exit(p->normals, r->room * sizeof *p->normals);
     }
 }
 
-static void keep(point_list *p, const double *numbers, const double origin[3], const char *line,
-                 const char *end)
+static void add(point_list *p, const double origin[3], const number_line *line)
 {
     const uint32_t i = p->count;
+    const double *n = line->numbers;
     double length = 1.0;
     if (p->normals != NULL) {
-        length = sqrt(numbers[3] * numbers[3] + numbers[4] * numbers[4] + numbers[5] * numbers[5]);
+        length = sqrt(n[3] * n[3] + n[4] * n[4] + n[5] * n[5]);
     }
     for (int k = 0; k < 3; k++) {
-        p->positions[i][k] = (float)(numbers[k] - origin[k]);
+        p->positions[i][k] = (float)(n[k] - origin[k]);
         if (p->normals != NULL) {
-            p->normals[i][k] = (float)(numbers[3 + k] / length);
+            p->normals[i][k] = (float)(n[3 + k] / length);
         }
     }
-    const size_t size = (size_t)(end - line);
+    const size_t size = (size_t)(line->rest - line->text);
     p->texts[i] = allocate_or_exit(NULL, size + 1);
-    memcpy(p->texts[i], line, size);
+    memcpy(p->texts[i], line->text, size);
     p->texts[i][size] = '\0';
     p->count++;
 }
 
-static int read_lines(FILE *file, const char *path, bool normals, const double origin[3],
-                      point_list *points)
+/// A number_line_fn; `user` is a reading.
+static const char *keep(void *user, const number_line *line)
 {
-    const int wanted = normals ? COLUMNS : 3;
-    char *line = NULL;
-    size_t size = 0;
-    uint32_t room = 0;
-    int code = EXIT_DONE;
-    for (unsigned long number = 1; code == EXIT_DONE && getline(&line, &size, file) >= 0;
-         number++) {
-        double numbers[COLUMNS] = {0.0};
-        const char *start = line + strspn(line, " \t\r\n"), *end = start;
-        if (*start == '\0' || *start == '#' || (points->count == 0 && points_are_names(start))) {
-            continue;
-        }
-        const int count = points_numbers(start, numbers, wanted, &end);
-        const char *fault = fault_of(numbers, count, wanted);
-        if (fault == NULL && points->count == POINT_LIMIT) {
-            fault = "too many points; split the file";
-        }
-        if (fault == NULL) {
-            grow(points, normals, &room);
-            keep(points, numbers, origin, start, end);
-        }
-        code = fault != NULL ? points_refuse(path, number, fault) : EXIT_DONE;
+    reading *r = user;
+    const char *fault = fault_of(line->numbers, line->count, r->normals ? COLUMNS : 3);
+    if (fault != NULL) {
+        return fault;
     }
-    free(line);
-    return code;
+    if (r->points->count == POINT_LIMIT) {
+        return "too many points; split the file";
+    }
+    grow(r);
+    add(r->points, r->origin, line);
+    return NULL;
 }
 
 int points_read(const char *path, bool normals, const double origin[3], point_list *points)
 {
-    char fault[MESSAGE_SIZE];
-    const bool input = strcmp(path, "-") == 0;
+    reading r = {.points = points, .normals = normals, .origin = {origin[0], origin[1], origin[2]}};
     *points = (point_list){0};
-    FILE *file = input ? stdin : fopen(path, "r");
-    if (file == NULL) {
-        snprintf(fault, sizeof fault, "%s: cannot be read", path);
-        return failure(fault);
-    }
-    int code = read_lines(file, path, normals, origin, points);
-    if (!input) {
-        fclose(file);
-    }
-    if (code == EXIT_DONE && points->count == 0) {
-        snprintf(fault, sizeof fault, "%s: holds no points; give a line of %s for each", path,
-                 normals ? "x,y,z,nx,ny,nz" : "x,y,z");
-        code = failure(fault);
-    }
-    return code;
+    return number_lines_read(path, normals ? COLUMNS : 3,
+                             normals ? "holds no points; give a line of x,y,z,nx,ny,nz for each"
+                                     : "holds no points; give a line of x,y,z for each",
+                             keep, &r);
 }
 
 void points_clear(point_list *points)

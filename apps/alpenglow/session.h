@@ -4,7 +4,7 @@
 #define COMMAND_SESSION_H
 
 #include "messages.h"
-#include "options.h"
+#include "options/options.h"
 #include "progress.h"
 
 #include <alpenglow/alpenglow.h>

@@ -3,7 +3,7 @@
 #ifndef COMMAND_VIEWS_H
 #define COMMAND_VIEWS_H
 
-#include "options.h"
+#include "options/options.h"
 
 /// --resolution, "960x540". @return EXIT_DONE, or EXIT_USAGE after a message
 int resolution_read(const command_line *arguments, uint32_t *width, uint32_t *height);

@@ -26,5 +26,6 @@ fly '0,.28,.3,.5,.28,.27,0,wide\n'
 fly "1,.28,.3,.5,.28,.27,0\n$good"
 fly "$good$good"
 alpenglow ambience builtin:cornell --path missing.csv 2>&1 || echo "exit $?"
+alpenglow ambience builtin:cornell --path . 2>&1 || echo "exit $?"
 printf "$good" >flight.csv
 alpenglow ambience builtin:cornell --path flight.csv --time -1 2>&1 || echo "exit $?"

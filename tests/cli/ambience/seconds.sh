@@ -12,6 +12,8 @@ echo "last anchors"
 $fly --reference-samples 16 --csv - --threads 1 | counts | cmp - <(counts <seconds.csv) && echo "threads agree"
 $fly --csv - --errors off | counts | cmp - <(counts <seconds.csv) && echo "errors change nothing"
 $fly --csv - --errors off --time 1 | awk -F , '{print NF, $6}'
+printf '0,1000,0,0,0,0,0\n' >far.csv
+$fly --path far.csv --time 1 --csv - | awk -F , '{print NF, $6}'
 $fly --errors off --time 4 | awk 'NR == 1 || /^ *[0-9]/ {print NR, NF} /^[a-z]+ / {print $1}'
 printf '5,.1,.45,.4,.28,.27,0\n' | alpenglow ambience builtin:cornell --path - --fps 2 --budget 4 --anchors 300 --progress off --csv - --errors off | wc -l
 $fly --csv seconds.csv 2>&1 || echo "exit $?"

@@ -12,6 +12,12 @@ fly --budget 65537
 fly --budget 10 --budget-ms 2
 fly --budget-ms 0
 fly --budget-ms nan
+fly --budget-ms -1
+fly --budget-ms 10001
+fly --budget-ms fast
+fly --budget-ms
+fly --detail -1
+fly --detail auto
 fly --fps 0
 fly --fps nan
 fly --time inf
@@ -35,6 +41,12 @@ fly --errors off --reference-samples 64
 fly --resolution 0x9
 fly --csv - --json -
 fly --csv out --json out
+fly --csv flight.csv -f
+fly --json ./flight.csv -f
+fly --json scene.glb -f
+fly --resolution 64x36
+fly --path
+fly --flat
 fly --pat flight.csv
 fly -o out.png
 for command in "render scene.glb -o out.png" "sample scene.glb --at points.csv"; do
@@ -44,6 +56,8 @@ for command in "render scene.glb -o out.png" "sample scene.glb --at points.csv";
     try $command --with ambience --path flight.csv --budget 5 --budget-ms 1
     try $command --with ambience --path flight.csv --csv -
     try $command --with constant --path flight.csv
+    try $command --with constant --detail 1
     try $command --with probes --lifetime 5
 done
+try sample scene.glb --at - --with ambience --path -
 try sample scene.glb --at points.csv --with ambience --path flight.csv --samples 9

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Parts of the table of options, one file each.
+#ifndef COMMAND_OPTION_PARTS_H
+#define COMMAND_OPTION_PARTS_H
+
+#include "options/options.h"
+
+#define RAY_COMMANDS (IN_BAKE | IN_RENDER)
+#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE)
+#define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
+
+typedef struct option_part {
+    const option *rows; // [count]
+    size_t count;
+} option_part;
+
+extern const option_part option_part_output;
+extern const option_part option_part_what;
+extern const option_part option_part_stop;
+extern const option_part option_part_picture;
+extern const option_part option_part_light;
+extern const option_part option_part_space;
+extern const option_part option_part_ambience;
+extern const option_part option_part_ao;
+extern const option_part option_part_run;
+extern const option_part option_part_later;
+
+#endif
