@@ -80,117 +80,105 @@ static void find_open(const alpi_lpv_scheme *s, uint32_t n, float sign, const fl
 
 // --- gathering -----------------------------------------------------------------------------------
 
-/// Fluxes that arrive in a cell, as sums over faces: of all, and along the axes.
+/// Fluxes through faces, summed: of all, and along three axes.
 typedef struct flux_sum {
-    float all, axis[3];
+    float all, a, b, c;
 } flux_sum;
 
-/// Adds what a neighbour sends along axis A. B and C are the other axes.
-/// @param i, va, vb, vc intensity of the neighbour   @param open shares that pass, five faces
-static inline void add_flux(const alpi_lpv_scheme *s, int a, int b, int c, float sign, float i,
-                            const float v[3], const float open[FACES], flux_sum *f)
+/// What light sends along axis a through the five faces there. Scalars alone, or the compiler does
+/// not vectorise the loop over cells.
+/// @param i, va, vb, vc intensity   @param o0 … o4 shares that pass the faces
+static inline flux_sum send(const alpi_lpv_scheme *s, float sign, float i, float va, float vb,
+                            float vc, float o0, float o1, float o2, float o3, float o4)
 {
-    const float axis = sign * v[a];
+    const float axis = sign * va;
     const float beside = i + s->along * axis;
-    const float vb = s->aside * v[b], vc = s->aside * v[c];
-    const float far = FAR * larger(i + s->far * axis, 0.0f) * open[0];
-    const float b0 = SIDE * larger(beside + vb, 0.0f) * open[1];
-    const float b1 = SIDE * larger(beside - vb, 0.0f) * open[2];
-    const float c0 = SIDE * larger(beside + vc, 0.0f) * open[3];
-    const float c1 = SIDE * larger(beside - vc, 0.0f) * open[4];
-    const float sides = b0 + b1 + c0 + c1;
-    f->all += far + sides;
-    f->axis[a] += sign * (far + s->give_along * sides);
-    f->axis[b] += s->give_aside * (b0 - b1);
-    f->axis[c] += s->give_aside * (c0 - c1);
+    const float b = s->aside * vb, c = s->aside * vc;
+    const float far = FAR * larger(i + s->far * axis, 0.0f) * o0;
+    const float b0 = SIDE * larger(beside + b, 0.0f) * o1;
+    const float b1 = SIDE * larger(beside - b, 0.0f) * o2;
+    const float c0 = SIDE * larger(beside + c, 0.0f) * o3;
+    const float c1 = SIDE * larger(beside - c, 0.0f) * o4;
+    const float sides = (b0 + b1) + (c0 + c1);
+    return (flux_sum){far + sides, sign * (far + s->give_along * sides), s->give_aside * (b0 - b1),
+                      s->give_aside * (c0 - c1)};
 }
 
-/// What a cell's blockers throw back of the light that it sends along axis A: a lobe against the
-/// way of the light.
-static inline void add_reflected(const alpi_lpv_scheme *s, int a, int b, int c, float sign, float i,
-                                 const float v[3], const float open[FACES], float albedo,
-                                 flux_sum *f)
-{
-    const float shut[FACES] = {1.0f - open[0], 1.0f - open[1], 1.0f - open[2], 1.0f - open[3],
-                               1.0f - open[4]};
-    flux_sum met = {0.0f, {0.0f, 0.0f, 0.0f}};
-    add_flux(s, a, b, c, sign, i, v, shut, &met);
-    f->all += albedo * met.all;
-    f->axis[a] -= sign * albedo * met.all;
-}
-
-/// All that a row of cells needs to know of its surroundings.
+/// All that a row of cells needs to know of its surroundings. Directions of travel: +x, −x, +y, −y,
+/// +z, −z. What arrives by +x was at x − 1.
 typedef struct row_work {
     uint32_t n;
     const alpi_lpv_scheme *scheme;
-    wide_row own[TERMS];                     // light of the row itself, of one channel
-    const float *beside[4][TERMS];           // of the rows at −y, +y, −z, +z
-    cell_row open[DIRECTIONS][FACES];        // of light that arrives, by direction of travel
-    cell_row leaving[DIRECTIONS][FACES];     // of light that leaves, by direction of travel
-    cell_row albedo[3][DIRECTIONS];          // of the faces that it leaves by, by channel
+    wide_row own[TERMS];                       // light of the row itself, of one channel
+    const float *from[DIRECTIONS][TERMS];      // light that arrives
+    cell_row open[DIRECTIONS][FACES];          // of light that arrives
+    cell_row leaving[DIRECTIONS][FACES];       // of light that leaves
+    cell_row albedo[3][DIRECTIONS];            // of the faces that it leaves by, by channel
     uint32_t channel;
 } row_work;
 
-/// What arrives in a cell by direction of travel d, along axis A, and what of its own light its
-/// blockers throw back from there.
-static inline void gather_from(const row_work *w, uint32_t x, bool blocked, bool reflects, int d,
-                               int a, int b, int c, flux_sum *f)
+/// What arrives in a cell by direction d. a, b, c: the terms of its axis and of the two others.
+static inline flux_sum arrive(const row_work *w, uint32_t x, bool blocked, int d, int a, int b,
+                              int c)
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
-    float p[TERMS], open[FACES];
-    for (int t = 0; t < TERMS; t++) { // what arrives by +x was at x − 1
-        p[t] = d < 2 ? w->own[t][x + (d == 0 ? 0 : 2)] : w->beside[d < 2 ? 0 : d - 2][t][x];
-    }
-    for (int k = 0; k < FACES; k++) {
-        open[k] = blocked ? w->open[d][k][x] : 1.0f;
-    }
-    add_flux(w->scheme, a, b, c, sign, p[0], p + 1, open, f);
-    if (reflects) {
-        for (int t = 0; t < TERMS; t++) {
-            p[t] = w->own[t][x + 1];
-        }
-        for (int k = 0; k < FACES; k++) {
-            open[k] = w->leaving[d][k][x];
-        }
-        add_reflected(w->scheme, a, b, c, sign, p[0], p + 1, open, w->albedo[w->channel][d][x],
-                      f);
-    }
+    const float *const *p = w->from[d];
+    const cell_row *o = w->open[d];
+    return send(w->scheme, sign, p[0][x], p[a][x], p[b][x], p[c][x], blocked ? o[0][x] : 1.0f,
+                blocked ? o[1][x] : 1.0f, blocked ? o[2][x] : 1.0f, blocked ? o[3][x] : 1.0f,
+                blocked ? o[4][x] : 1.0f);
 }
 
-/// Fluxes to an intensity: each is a lobe of Φ/π (1/4 + n·ω/2). Writes it, scaled for the next
-/// step, and adds it to the sum.
-static inline void give(const alpi_lpv_scheme *s, const flux_sum *f, uint32_t x, float *const *next,
-                        float *const *sum)
+/// What the blockers of a cell throw back of the light that leaves it by direction d.
+static inline float come_back(const row_work *w, uint32_t x, int d, int a, int b, int c)
 {
-    const float quarter = 0.0795774715f, half = 0.1591549431f; // 1/4π, 1/2π
-    const float i = quarter * f->all;
-    const float vx = half * f->axis[0], vy = half * f->axis[1], vz = half * f->axis[2];
-    const float scale = scale_of(s, i, vx, vy, vz);
-    sum[0][x] += i;
-    sum[1][x] += vx;
-    sum[2][x] += vy;
-    sum[3][x] += vz;
-    next[0][x] = scale * i;
-    next[1][x] = scale * vx;
-    next[2][x] = scale * vy;
-    next[3][x] = scale * vz;
+    const float sign = d % 2 == 0 ? 1.0f : -1.0f;
+    const wide_row *p = w->own;
+    const cell_row *o = w->leaving[d];
+    const flux_sum met = send(w->scheme, sign, p[0][x + 1], p[a][x + 1], p[b][x + 1], p[c][x + 1],
+                              1.0f - o[0][x], 1.0f - o[1][x], 1.0f - o[2][x], 1.0f - o[3][x],
+                              1.0f - o[4][x]);
+    return w->albedo[w->channel][d][x] * met.all;
 }
 
-/// One channel of a row. Written once for each kind of step, so that the compiler sees which.
-static inline void gather_row(const row_work *w, bool blocked, bool reflects, float *const *next,
-                              float *const *sum)
+/// One channel of a row. Each face's flux Φ becomes a lobe Φ/π (1/4 + n·ω/2); what comes back, one
+/// against the way that it went. Called with constants for each kind of step.
+__attribute__((always_inline)) static inline void gather_row(const row_work *w, bool blocked, bool reflects,
+                              float *const next[TERMS], float *const sum[TERMS])
 {
     const uint32_t n = w->n;
+    const float quarter = 0.0795774715f, half = 0.1591549431f; // 1/4π, 1/2π
     EACH_CELL
     {
-        flux_sum f = {0.0f, {0.0f, 0.0f, 0.0f}};
-        gather_from(w, x, blocked, reflects, 0, 0, 1, 2, &f);
-        gather_from(w, x, blocked, reflects, 1, 0, 1, 2, &f);
-        gather_from(w, x, blocked, reflects, 2, 1, 2, 0, &f);
-        gather_from(w, x, blocked, reflects, 3, 1, 2, 0, &f);
-        gather_from(w, x, blocked, reflects, 4, 2, 0, 1, &f);
-        gather_from(w, x, blocked, reflects, 5, 2, 0, 1, &f);
-        give(w->scheme, &f, x, next, sum);
+        const flux_sum x0 = arrive(w, x, blocked, 0, 1, 2, 3), x1 = arrive(w, x, blocked, 1, 1, 2, 3);
+        const flux_sum y0 = arrive(w, x, blocked, 2, 2, 3, 1), y1 = arrive(w, x, blocked, 3, 2, 3, 1);
+        const flux_sum z0 = arrive(w, x, blocked, 4, 3, 1, 2), z1 = arrive(w, x, blocked, 5, 3, 1, 2);
+        float all = (x0.all + x1.all) + (y0.all + y1.all) + (z0.all + z1.all);
+        float vx = (x0.a + x1.a) + (y0.c + y1.c) + (z0.b + z1.b);
+        float vy = (x0.b + x1.b) + (y0.a + y1.a) + (z0.c + z1.c);
+        float vz = (x0.c + x1.c) + (y0.b + y1.b) + (z0.a + z1.a);
+        if (reflects) {
+            const float back_x0 = come_back(w, x, 0, 1, 2, 3), back_x1 = come_back(w, x, 1, 1, 2, 3);
+            const float back_y0 = come_back(w, x, 2, 2, 3, 1), back_y1 = come_back(w, x, 3, 2, 3, 1);
+            const float back_z0 = come_back(w, x, 4, 3, 1, 2), back_z1 = come_back(w, x, 5, 3, 1, 2);
+            all += (back_x0 + back_x1) + (back_y0 + back_y1) + (back_z0 + back_z1);
+            vx += back_x1 - back_x0;
+            vy += back_y1 - back_y0;
+            vz += back_z1 - back_z0;
+        }
+        const float i = quarter * all;
+        vx *= half;
+        vy *= half;
+        vz *= half;
+        const float scale = scale_of(w->scheme, i, vx, vy, vz);
+        sum[0][x] += i;
+        sum[1][x] += vx;
+        sum[2][x] += vy;
+        sum[3][x] += vz;
+        next[0][x] = scale * i;
+        next[1][x] = scale * vx;
+        next[2][x] = scale * vy;
+        next[3][x] = scale * vz;
     }
 }
 
@@ -276,9 +264,12 @@ static void step_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32_
                 next[t] = g->next + own;
                 sum[t] = g->sum + own;
                 widen(w.own[t], g->light + own, w.n, step->wraps);
+                w.from[0][t] = w.own[t];
+                w.from[1][t] = w.own[t] + 2;
                 for (int i = 0; i < 4; i++) {
-                    w.beside[i][t] = row_at(g, g->light, ALPI_LPV_ROWS, k, (int64_t)y + beside[i][0],
-                                            (int64_t)z + beside[i][1], step->wraps);
+                    w.from[2 + i][t] =
+                        row_at(g, g->light, ALPI_LPV_ROWS, k, (int64_t)y + beside[i][0],
+                               (int64_t)z + beside[i][1], step->wraps);
                 }
             }
             if (step->reflects) {
@@ -296,17 +287,19 @@ static void start_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32
                        uint32_t end)
 {
     const uint32_t n = g->size[0];
+    const alpi_lpv_scheme scheme = step->scheme;
     for (uint32_t block = 3 * first; block < 3 * end; block++) {
         const size_t at = (size_t)block * TERMS * n;
-        const float *restrict p = g->injected + at;
-        float *restrict light = g->light + at, *restrict sum = g->sum + at;
-        memcpy(sum, p, TERMS * n * sizeof *p);
+        const float *p0 = g->injected + at, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
+        float *l0 = g->light + at, *l1 = l0 + n, *l2 = l1 + n, *l3 = l2 + n;
+        memcpy(g->sum + at, p0, TERMS * n * sizeof *p0);
         EACH_CELL
         {
-            const float scale = scale_of(&step->scheme, p[x], p[n + x], p[2 * n + x], p[3 * n + x]);
-            for (uint32_t t = 0; t < TERMS; t++) {
-                light[t * n + x] = scale * p[t * n + x];
-            }
+            const float scale = scale_of(&scheme, p0[x], p1[x], p2[x], p3[x]);
+            l0[x] = scale * p0[x];
+            l1[x] = scale * p1[x];
+            l2[x] = scale * p2[x];
+            l3[x] = scale * p3[x];
         }
     }
 }
