@@ -39,8 +39,9 @@ typedef struct alpi_anchor {
     float fade_left;       // seconds until then
     float confidence;      // [0, 1]
     float confidence_rate; // 1/s, below 0 while leaving
-    float open;            // 1: no solid, as far as is known; 0: solid
-    float solid_time;      // seconds since it was found to be a solid
+    float open;            // what `closed` leaves of its weight: 1: no solid; 0: solid
+    float closed;          // [0, 1]: share of the fade to a solid; above 0 without light alone
+    float solid_rate;      // 1/s of that fade
     float change;          // relative change of E at its last renewal
     double born;           // when its newest light was sampled
     double wanted;         // when a window last held it

@@ -2,15 +2,14 @@
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 /// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
 /// half a per cent a frame; a renewal and a new finer anchor at the same place together make one.
 static const float FADE_RATE = 0.3f;
-/// Weight of a solid, as a share of its places, from which its fade is even: see solid_openness.
-static const float SOLID_SHARE = 0.2f;
+/// Steepness of the fade of a solid: see solid_openness.
+static const float SOLID_STEEPNESS = 8.0f, INVERSE_E = 0.36787944f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
 static const double SOLID_LIFETIMES = 4.0;
 /// Change of E by new lighting, over the mean, from which an anchor is lit once more: what bounced
@@ -140,6 +139,37 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     return find_difference(now, before);
 }
 
+/// How far light at an anchor is from that without it, over the mean.
+static float loss_without(const alp_ambience *a, const alpi_anchor *at)
+{
+    const float mean = alpi_ambience_mean(a->base);
+    return mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / mean : 0.0f;
+}
+
+/// Seconds in which a change of E over the mean fades.
+static float fade_seconds(const alp_ambience *a, float change)
+{
+    const float least = fmaxf((float)a->options.fade, 1e-3f);
+    const float longest = fmaxf(least, (float)a->options.lifetime);
+    return fminf(fmaxf(change / FADE_RATE, least), longest);
+}
+
+/// Share of a solid's fade in a second. It moves weight between neighbours and coarser levels.
+static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
+{
+    const uint32_t node = alpi_graph_find(&a->graph, at->level, at->index);
+    float loss = 0.0f;
+    for (int d = 0; d < ALPI_GRAPH_DIRECTIONS && node != ALPI_NO_NODE; d++) {
+        const uint32_t beside = a->graph.nodes[node].neighbour[d];
+        const uint32_t other =
+            beside != ALPI_NO_NODE ? a->graph.nodes[beside].anchor : ALPI_NO_ANCHOR;
+        if (other != ALPI_NO_ANCHOR && a->anchors[other].slot != ALPI_NO_SLOT) {
+            loss = fmaxf(loss, loss_without(a, &a->anchors[other]));
+        }
+    }
+    return 1.0f / (INVERSE_E * SOLID_STEEPNESS * fade_seconds(a, loss));
+}
+
 /// Seconds that new light takes: longer for large changes, unless the lighting changed. A
 /// fade under way goes on at its speed at least, or renewals of still light would never end it.
 static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
@@ -158,6 +188,21 @@ static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
     const float left = find_difference(a->nexts.light[at->next], a->lights.light[at->slot]);
     const float longer = left > 0.0f ? fmaxf(jump / left, 1.0f) : 1.0f;
     return fminf(fade, longer * at->fade_left);
+}
+
+/// Openness o of a solid at a share u of its fade. Other places of weight s have the share
+/// s / (s + (1 − s) o) of a level. With one level that rises by a quarter of the steepness at most,
+/// with any number of levels by 1/e of it, for each s above .004.
+static float solid_openness(float u)
+{
+    const float end = expf(-SOLID_STEEPNESS);
+    return (expf(-SOLID_STEEPNESS * u) - end) / (1.0f - end);
+}
+
+static void set_closed(alpi_anchor *at, float closed)
+{
+    at->closed = closed;
+    at->open = solid_openness(closed);
 }
 
 /// Slots for new light. A first light takes the place of none.
@@ -186,6 +231,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     at->pending = false;
     at->change = mean > 0.0f ? jump / mean : 0.0f;
     const float fade = find_fade(a, at, jump);
+    const float loss = at->slot != ALPI_NO_SLOT ? loss_without(a, at) : at->change;
     ALP_TRY(take_slots(a, at, renewed));
     if (renewed && fade > 0.0f) {
         put(&a->nexts, at->next, radiance, moments);
@@ -197,15 +243,18 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     }
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
-        const float least = fmaxf((float)a->options.fade, 1e-3f);
-        const float longest = fmaxf(least, (float)a->options.lifetime);
-        at->confidence_rate = 1.0f / fminf(fmaxf(at->change / FADE_RATE, least), longest);
+        at->confidence_rate = 1.0f / fade_seconds(a, loss);
+    }
+    if (at->state == ALPI_ANCHOR_SOLID) {
+        at->solid_rate = solid_rate(a, at);
+    }
+    if (is_first(a)) {
+        set_closed(at, 0.0f);
     }
     at->state = ALPI_ANCHOR_LIT;
     at->again = at->stale_light && at->change > BOUNCE_CHANGE;
     at->leaving = at->stale_light = at->stale_trace = false;
     at->born = a->time;
-    at->open = 1.0f;
     at->version = ++a->version_serial;
     a->taken++;
     return ALP_OK;
@@ -220,26 +269,20 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
     a->taken++;
     if (at->state != ALPI_ANCHOR_SOLID) {
         at->state = ALPI_ANCHOR_SOLID;
-        at->solid_time = 0.0f;
         at->leaving = false;
         alpi_lights_give(&a->nexts, &at->next);
-        at->confidence_rate = at->confidence > 0.0f ? -1.0f : 0.0f;
+        at->confidence_rate =
+            at->slot != ALPI_NO_SLOT ? -1.0f / fade_seconds(a, loss_without(a, at)) : 0.0f;
+        at->solid_rate = solid_rate(a, at);
         if (is_first(a)) {
-            at->open = at->confidence = 0.0f;
-            at->solid_time = FLT_MAX;
+            at->confidence = 0.0f;
+            set_closed(at, 1.0f);
         }
         at->version = ++a->version_serial;
     }
 }
 
 // --- time ----------------------------------------------------------------------------------------
-
-/// Openness of a solid at a share u of its fade. If its places have the weight 1 − s, the others'
-/// share grows evenly: s / (s + (1 − s) o) = s + (1 − s) u.
-static float solid_openness(float u)
-{
-    return u >= 1.0f ? 0.0f : SOLID_SHARE * (1.0f - u) / (SOLID_SHARE + (1.0f - SOLID_SHARE) * u);
-}
 
 static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
 {
@@ -256,33 +299,58 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
     at->version = ++a->version_serial;
 }
 
+/// Levels on which an anchor is read.
+static uint32_t count_levels(const alp_ambience *a, const alpi_anchor *at)
+{
+    uint32_t count = 0, node = alpi_graph_find(&a->graph, at->level, at->index);
+    while (node != ALPI_NO_NODE) {
+        const uint32_t child = a->graph.nodes[node].child;
+        node = child != ALPI_NO_NODE ? child + alpi_graph_middle(a->options.flat) : ALPI_NO_NODE;
+        count++;
+    }
+    return count;
+}
+
+/// How fast light at a place follows the confidence f of an anchor. On m levels, the anchor has the
+/// share 1 − (1 − f)^m. It has fewer levels beside its place.
+static float find_steepness(uint32_t levels, float confidence)
+{
+    float most = 1.0f, power = 1.0f;
+    for (uint32_t m = 2; m <= levels; m++) {
+        power *= 1.0f - confidence;
+        most = fmaxf(most, (float)m * power);
+    }
+    return most;
+}
+
+/// Light at a place that was a solid waits until it is open.
 static void fade_confidence(alp_ambience *a, alpi_anchor *at, float step)
 {
     const float limit = at->confidence_rate < 0.0f ? 0.0f : 1.0f;
-    if (at->confidence_rate != 0.0f && at->confidence != limit) {
-        const float moved = at->confidence + at->confidence_rate * step;
+    const bool waits = limit > 0.0f && at->closed > 0.0f;
+    if (at->confidence_rate != 0.0f && at->confidence != limit && !waits) {
+        const float steepness = find_steepness(count_levels(a, at), at->confidence);
+        const float moved = at->confidence + at->confidence_rate * step / steepness;
         at->confidence = limit > 0.0f ? fminf(moved, 1.0f) : fmaxf(moved, 0.0f);
         at->version = ++a->version_serial;
     }
 }
 
-/// How far light at an anchor is from that without it, over the mean.
-static float loss_without(const alp_ambience *a, const alpi_anchor *at)
-{
-    const float mean = alpi_ambience_mean(a->base);
-    return mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / mean : 0.0f;
-}
-
-/// Closes a solid, or opens it again when it has not been renewed for long.
+/// Closes a solid once its light is gone. Opens it when it has light, or has not been renewed for
+/// long.
 static void step_solid(alp_ambience *a, alpi_anchor *at, float step)
 {
-    const float fade = fmaxf((float)a->options.fade, 1.0f) * 2.0f;
-    at->leaving = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
-    const float moved = at->solid_time + (at->leaving ? -step : step);
-    const float now = fminf(fmaxf(moved, 0.0f), fade);
-    if (now != at->solid_time) {
-        at->solid_time = now;
-        at->open = solid_openness(now / fade);
+    const bool solid = at->state == ALPI_ANCHOR_SOLID;
+    const bool expired = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
+    if (solid && at->leaving != expired) {
+        at->leaving = expired;
+        at->solid_rate = solid_rate(a, at);
+    }
+    const bool closes = solid && !expired && !(at->confidence > 0.0f);
+    const float moved = at->closed + (closes ? step : -step) * at->solid_rate;
+    const float now = fminf(fmaxf(moved, 0.0f), 1.0f);
+    if (now != at->closed) {
+        set_closed(at, now);
         at->version = ++a->version_serial;
     }
 }
@@ -290,11 +358,8 @@ static void step_solid(alp_ambience *a, alpi_anchor *at, float step)
 static void step_lit(const alp_ambience *a, alpi_anchor *at)
 {
     if (!at->leaving && a->time - at->born > a->options.lifetime) {
-        const float least = fmaxf((float)a->options.fade, 1e-3f);
-        const float fade =
-            fmaxf(least, fminf(loss_without(a, at) / FADE_RATE, (float)a->options.lifetime));
         at->leaving = true;
-        at->confidence_rate = -1.0f / fade;
+        at->confidence_rate = -1.0f / fade_seconds(a, loss_without(a, at));
     }
 }
 
@@ -307,19 +372,17 @@ void alpi_anchors_step(alp_ambience *a, double step)
             continue;
         }
         fade_confidence(a, at, dt);
-        if (at->state == ALPI_ANCHOR_SOLID) {
-            if (!(at->confidence > 0.0f)) {
-                alpi_lights_give(&a->lights, &at->slot);
-            }
-            step_solid(a, at, dt);
-        } else if (at->state == ALPI_ANCHOR_LIT) {
+        if (at->state == ALPI_ANCHOR_SOLID && !(at->confidence > 0.0f)) {
+            alpi_lights_give(&a->lights, &at->slot);
+        }
+        if (at->state == ALPI_ANCHOR_LIT) {
             if (at->next != ALPI_NO_SLOT) {
                 fade_light(a, at, dt);
             }
             step_lit(a, at);
         }
-        const bool gone =
-            at->state == ALPI_ANCHOR_SOLID ? !(at->solid_time > 0.0f) : !(at->confidence > 0.0f);
+        step_solid(a, at, dt);
+        const bool gone = !(at->confidence > 0.0f) && !(at->closed > 0.0f);
         const bool dark = at->state == ALPI_ANCHOR_EMPTY || (at->leaving && gone);
         if (dark && !at->pending) {
             alpi_anchor_release(a, i);

@@ -359,7 +359,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
 {
     alp_ambience *a = s->ambience;
     alpi_anchor *at = &a->anchors[anchor];
-    const bool first = at->state != ALPI_ANCHOR_LIT && s->options.first_face < s->options.face;
+    const bool first = at->state == ALPI_ANCHOR_EMPTY && s->options.first_face < s->options.face;
     const uint32_t face = first ? s->options.first_face : s->options.face;
     const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
     double place[3];
