@@ -231,6 +231,7 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
         return;
     }
     ambience->plan_age = UINT32_MAX / 2;
+    ambience->stale_serial++;
     for (uint32_t i = 0; i < ambience->anchor_end; i++) {
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
@@ -240,8 +241,8 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
             inside = inside && place[k] >= box_min[k] && place[k] <= box_max[k];
         }
         if (inside && at->state != ALPI_ANCHOR_FREE) {
-            at->stale_light = true;
-            at->stale_trace = at->stale_trace || traced;
+            at->stale_light = ambience->stale_serial;
+            at->stale_trace = traced ? ambience->stale_serial : at->stale_trace;
         }
     }
 }

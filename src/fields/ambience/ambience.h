@@ -28,10 +28,10 @@ typedef struct alpi_anchor {
     uint8_t state;         // alpi_anchor_state
     bool pending;          // a request for it is open
     bool leaving;          // its light has expired and fades out
-    bool stale_light;      // lighting changed since
     bool again;            // it goes stale when its fade ends
-    bool stale_trace;      // geometry changed since
     bool coarse;           // sampled by few rays
+    uint32_t stale_light;  // serial of the change of light that it does not have yet; 0: none
+    uint32_t stale_trace;  // the same of geometry
     float height;          // flat: metres of its place along y
     uint32_t slot;         // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
     uint32_t next;         // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
@@ -71,6 +71,7 @@ struct alp_ambience {
     size_t anchor_capacity;
     uint32_t anchor_end, free_anchor, anchor_count;
     uint32_t version_serial; // of anchors
+    uint32_t stale_serial;   // of changes of light and geometry
     alpi_light_pool lights, nexts;
 
     alpi_request_slot *slots;
@@ -115,11 +116,12 @@ void alpi_anchor_release(alp_ambience *ambience, uint32_t anchor);
 /// Metres, as alpi_ambience_place; the height of the ground is that when the anchor was made.
 void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, double place[3]);
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
+/// @param serial stale_serial when it was sampled: later changes stay to be sampled
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
-                             const float (*moments)[2]);
+                             const float (*moments)[2], uint32_t serial);
 /// @param surface metres to the nearest surface, at least
-void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface);
+void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface, uint32_t serial);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);
 /// Gives memory of anchors that are gone back. @return ALP_OK; OUT_OF_MEMORY

@@ -172,14 +172,14 @@ static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
 
 /// Seconds that new light takes: longer for large changes, unless the lighting changed. A
 /// fade under way goes on at its speed at least, or renewals of still light would never end it.
-static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
+static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump, bool relit)
 {
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
     const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
     if (is_first(a)) {
         return 0.0f;
     }
-    if (at->stale_light) { // lamps or the sun moved
+    if (relit) {
         return least;
     }
     if (at->next == ALPI_NO_SLOT) {
@@ -222,15 +222,23 @@ static alp_result take_slots(alp_ambience *a, alpi_anchor *at, bool renewed)
     return ALP_OK;
 }
 
+/// It has all changes up to a serial.
+static void freshen(alpi_anchor *at, uint32_t serial)
+{
+    at->stale_light = at->stale_light <= serial ? 0 : at->stale_light;
+    at->stale_trace = at->stale_trace <= serial ? 0 : at->stale_trace;
+}
+
 alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
-                             const float (*moments)[2])
+                             const float (*moments)[2], uint32_t serial)
 {
     alpi_anchor *at = &a->anchors[anchor];
+    const bool relit = at->stale_light != 0 && at->stale_light <= serial;
     const bool renewed = at->slot != ALPI_NO_SLOT && !is_first(a);
     const float jump = find_jump(a, at, radiance), mean = alpi_ambience_mean(a->base);
     at->pending = false;
     at->change = mean > 0.0f ? jump / mean : 0.0f;
-    const float fade = find_fade(a, at, jump);
+    const float fade = find_fade(a, at, jump, relit);
     const float loss = at->slot != ALPI_NO_SLOT ? loss_without(a, at) : at->change;
     ALP_TRY(take_slots(a, at, renewed));
     if (renewed && fade > 0.0f) {
@@ -252,18 +260,20 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
         set_closed(at, 0.0f);
     }
     at->state = ALPI_ANCHOR_LIT;
-    at->again = at->stale_light && at->change > BOUNCE_CHANGE;
-    at->leaving = at->stale_light = at->stale_trace = false;
+    at->again = relit && at->change > BOUNCE_CHANGE;
+    at->leaving = false;
+    freshen(at, serial);
     at->born = a->time;
     at->version = ++a->version_serial;
     a->taken++;
     return ALP_OK;
 }
 
-void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
+void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface, uint32_t serial)
 {
     alpi_anchor *at = &a->anchors[anchor];
-    at->pending = at->stale_light = at->stale_trace = false;
+    at->pending = false;
+    freshen(at, serial);
     at->born = a->time;
     at->mean = surface;
     a->taken++;
@@ -292,7 +302,7 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
     } else {
         alpi_lights_copy(&a->lights, at->slot, &a->nexts, at->next);
         alpi_lights_give(&a->nexts, &at->next);
-        at->stale_light = at->stale_light || at->again; // light that bounced there changed too
+        at->stale_light = at->again ? a->stale_serial : at->stale_light; // it bounced there too
         at->again = false;
     }
     at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
@@ -366,6 +376,7 @@ static void step_lit(const alp_ambience *a, alpi_anchor *at)
 void alpi_anchors_step(alp_ambience *a, double step)
 {
     const float dt = (float)step;
+    a->stale_serial++;
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         alpi_anchor *at = &a->anchors[i];
         if (at->state == ALPI_ANCHOR_FREE) {

@@ -205,7 +205,7 @@ static float renewal_urgency(const plan *p, const alpi_anchor *at, float near)
     if (at->pending || at->state == ALPI_ANCHOR_EMPTY) {
         return 0.0f;
     }
-    if (at->stale_trace) {
+    if (at->stale_trace != 0) {
         return 30.0f + near;
     }
     if (at->state == ALPI_ANCHOR_SOLID) {
@@ -214,7 +214,7 @@ static float renewal_urgency(const plan *p, const alpi_anchor *at, float near)
     if (age > URGENT) {
         return 25.0f + age;
     }
-    if (at->stale_light) {
+    if (at->stale_light != 0) {
         return 4.0f + 12.0f * fminf(age / RELIGHT, 1.0f) + near;
     }
     if (at->coarse) {
@@ -513,6 +513,6 @@ alp_result alp_ambience_next(alp_ambience *ambience, const alp_ambience_camera *
     alpi_anchor_place(ambience, at, request->position);
     request->cell = alpi_ambience_cell(ambience, at->level);
     request->renewal = at->state == ALPI_ANCHOR_LIT;
-    request->relight = request->renewal && at->stale_light && !at->stale_trace;
+    request->relight = request->renewal && at->stale_light != 0 && at->stale_trace == 0;
     return ALP_OK;
 }

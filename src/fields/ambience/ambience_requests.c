@@ -19,6 +19,7 @@ static const float LARGEST = 1e30f; // coefficient: sums stay finite
 struct alpi_request_slot {
     _Atomic(uint64_t) word; // serial << STATE_BITS | state
     uint32_t anchor;
+    uint32_t serial; // of the changes of light that were known
     double opened;
     bool solid;
     alpi_sh9 radiance;
@@ -54,6 +55,7 @@ uint64_t alpi_request_open(alp_ambience *a, uint32_t anchor)
         }
         const uint64_t serial = ++a->slot_serial << SLOT_BITS | i;
         slot->anchor = anchor;
+        slot->serial = a->stale_serial;
         slot->opened = a->time;
         slot->solid = false;
         atomic_store(&slot->word, serial << STATE_BITS | OPEN);
@@ -163,9 +165,10 @@ alp_result alpi_requests_collect(alp_ambience *a)
         const uint64_t word = atomic_load(&slot->word);
         if ((word & 3u) == ANSWERED) {
             if (slot->solid) {
-                alpi_anchor_solid(a, slot->anchor, 0.0f);
+                alpi_anchor_solid(a, slot->anchor, 0.0f, slot->serial);
             } else {
-                const alp_result one = alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
+                const alp_result one =
+                    alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL, slot->serial);
                 result = result == ALP_OK ? one : result;
             }
             atomic_store(&slot->word, (word & ~(uint64_t)3u));

@@ -361,7 +361,7 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
     alpi_anchor *at = &a->anchors[anchor];
     const bool first = at->state == ALPI_ANCHOR_EMPTY && s->options.first_face < s->options.face;
     const uint32_t face = first ? s->options.first_face : s->options.face;
-    const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
+    const bool kept = at->hits != NULL && at->hits_face == face && at->stale_trace == 0;
     double place[3];
     alpi_sphere_hits_point *p = &s->points[index];
     alpi_anchor_place(a, at, place);
@@ -392,7 +392,7 @@ static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambien
     // Rays of an anchor on a surface may start on either side.
     if (!p->traced &&
         (p->value.behind > ALPI_FREE_BACKS || surface < ON_SURFACE * (float)a->unit)) {
-        alpi_anchor_solid(a, anchor, surface);
+        alpi_anchor_solid(a, anchor, surface, a->stale_serial);
         if (a->anchors[anchor].hits != NULL) {
             drop_hits(a, &a->anchors[anchor]);
         }
@@ -401,7 +401,8 @@ static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambien
     const bool moments = a->lights.visibility && !p->traced;
     a->anchors[anchor].coarse = p->face < s->options.face;
     return alpi_anchor_light(a, anchor, &p->value.light,
-                             moments ? (const float(*)[2])s->moments[index] : NULL);
+                             moments ? (const float(*)[2])s->moments[index] : NULL,
+                             a->stale_serial);
 }
 
 static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_work *work)

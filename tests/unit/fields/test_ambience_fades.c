@@ -108,3 +108,64 @@ TEST(solids_come_and_go_without_a_jump)
     flip_block(2.3, 6);
     flip_block(0.7, 9);
 }
+
+// --- light out of date ---------------------------------------------------------------------------
+
+/// The request of the anchor in the middle; id 0: it is not wanted. All others are answered.
+static alp_ambience_request find_middle(alp_ambience *a)
+{
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}}};
+    alp_ambience_request middle = {0}, request;
+    for (int i = 0; i < 1000; i++) {
+        ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+        if (request.id == 0) {
+            break;
+        }
+        if (request.position[0] == 0.0 && request.position[1] == 0.0 &&
+            request.position[2] == 0.0) {
+            middle = request;
+        } else {
+            ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+        }
+    }
+    return middle;
+}
+
+/// Changes while a request is open: its answer does not have them.
+static void change_on_the_way(bool traced, bool solid)
+{
+    alp_ambience_options o = small_options();
+    o.depth = 1;
+    alp_ambience *a = world_open(context, &o);
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}}};
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    ASSERT_OK(context, alp_ambience_submit(a, find_middle(a).id, &light));
+    ASSERT_OK(context, alp_ambience_update(a, 0.1));
+    alp_ambience_invalidate(a, true, NULL, NULL); // before the request: the answer has it
+    alp_ambience_request request = find_middle(a);
+    assert_true(request.id != 0 && !request.relight);
+    alp_ambience_invalidate(a, traced, NULL, NULL);
+    ASSERT_OK(context, solid ? alp_ambience_submit_solid(a, request.id)
+                             : alp_ambience_submit(a, request.id, &light));
+    ASSERT_OK(context, alp_ambience_update(a, 0.2));
+    const uint32_t anchor = a->graph.nodes[ALPI_GRAPH_ROOT].anchor;
+    assert_true(a->anchors[anchor].stale_light != 0);
+    assert_true((a->anchors[anchor].stale_trace != 0) == traced);
+    if (!solid) {
+        request = find_middle(a);
+        assert_true(request.id != 0 && request.relight == !traced);
+        ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+        ASSERT_OK(context, alp_ambience_update(a, 0.3));
+        assert_true(a->anchors[anchor].stale_light == 0 && a->anchors[anchor].stale_trace == 0);
+        assert_true(find_middle(a).id == 0);
+    }
+    alp_ambience_destroy(a);
+}
+
+TEST(changes_after_a_request_outlive_its_answer)
+{
+    change_on_the_way(false, false);
+    change_on_the_way(true, false);
+    change_on_the_way(true, true);
+}
