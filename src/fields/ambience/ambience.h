@@ -78,8 +78,10 @@ struct alp_ambience {
     uint64_t slot_serial;
     bool requests_open;
 
-    double time, first_time; // NaN before the first update
-    float base[ALPI_AMBIENCE_FLOATS];
+    double time, first_time;          // NaN before the first update
+    float base[ALPI_AMBIENCE_FLOATS]; // light where no anchor has any: follows their mean
+    float mean;                       // E of the mean of all anchors
+    float dawn;                       // [0, 1]: share of all light that is there
     alpi_snapshots snapshots;
 
     alpi_wish *wishes; // sorted, most urgent last
@@ -126,6 +128,8 @@ void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface, u
 void alpi_anchors_step(alp_ambience *ambience, double step);
 /// Gives memory of anchors that are gone back. @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_ambience_compact(alp_ambience *ambience);
+/// Light where no anchor has any moves to the mean of all anchors. The first light dawns.
+void alpi_ambience_find_base(alp_ambience *ambience, double step);
 /// Mean irradiance over all directions, mean of the channels.
 float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
 

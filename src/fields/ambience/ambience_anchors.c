@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -135,6 +136,10 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
         double place[3];
         alpi_anchor_place(a, at, place);
         alpi_ambience_read(published(a), place, NULL, before);
+        const float dawn = published(a)->dawn; // all light fades together
+        for (int i = 0; i < ALPI_AMBIENCE_FLOATS && dawn > 0.0f; i++) {
+            before[i] /= dawn;
+        }
     }
     return find_difference(now, before);
 }
@@ -142,8 +147,7 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
 /// How far light at an anchor is from that without it, over the mean.
 static float loss_without(const alp_ambience *a, const alpi_anchor *at)
 {
-    const float mean = alpi_ambience_mean(a->base);
-    return mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / mean : 0.0f;
+    return a->mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / a->mean : 0.0f;
 }
 
 /// Seconds in which a change of E over the mean fades.
@@ -235,9 +239,9 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     alpi_anchor *at = &a->anchors[anchor];
     const bool relit = at->stale_light != 0 && at->stale_light <= serial;
     const bool renewed = at->slot != ALPI_NO_SLOT && !is_first(a);
-    const float jump = find_jump(a, at, radiance), mean = alpi_ambience_mean(a->base);
+    const float jump = find_jump(a, at, radiance);
     at->pending = false;
-    at->change = mean > 0.0f ? jump / mean : 0.0f;
+    at->change = a->mean > 0.0f ? jump / a->mean : 0.0f;
     const float fade = find_fade(a, at, jump, relit);
     const float loss = at->slot != ALPI_NO_SLOT ? loss_without(a, at) : at->change;
     ALP_TRY(take_slots(a, at, renewed));
@@ -258,6 +262,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     }
     if (is_first(a)) {
         set_closed(at, 0.0f);
+        a->dawn = 1.0f;
     }
     at->state = ALPI_ANCHOR_LIT;
     at->again = relit && at->change > BOUNCE_CHANGE;
@@ -399,4 +404,46 @@ void alpi_anchors_step(alp_ambience *a, double step)
             alpi_anchor_release(a, i);
         }
     }
+}
+
+// --- light without anchors -----------------------------------------------------------------------
+
+/// Mean of all anchors, by confidence and the volume of their cells. @return false: none has light
+static bool find_mean(const alp_ambience *a, float mean[ALPI_AMBIENCE_FLOATS])
+{
+    double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
+    for (uint32_t i = 0; i < a->anchor_end; i++) {
+        const alpi_anchor *at = &a->anchors[i];
+        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) || at->slot == ALPI_NO_SLOT) {
+            continue;
+        }
+        const double width = (double)alpi_graph_width(at->level);
+        const double w = (double)at->confidence * width * width * (a->options.flat ? 1.0 : width);
+        for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
+            sums[k] += w * (double)a->lights.light[at->slot][k];
+        }
+        total += w;
+    }
+    for (int k = 0; k < ALPI_AMBIENCE_FLOATS && total > 0.0; k++) {
+        mean[k] = (float)(sums[k] / total);
+    }
+    return total > 0.0;
+}
+
+void alpi_ambience_find_base(alp_ambience *a, double step)
+{
+    float mean[ALPI_AMBIENCE_FLOATS];
+    if (!find_mean(a, mean)) {
+        return;
+    }
+    const bool at_once = is_first(a) || !(a->mean > 0.0f);
+    const float dt = (float)step, apart = find_difference(mean, a->base);
+    a->mean = alpi_ambience_mean(mean);
+    const float level = fmaxf(fmaxf(a->mean, alpi_ambience_mean(a->base)), FLT_MIN);
+    const float seconds = fminf(apart / (FADE_RATE * level), (float)a->options.lifetime);
+    const float share = at_once || dt >= seconds ? 1.0f : dt / seconds;
+    for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
+        a->base[k] += share * (mean[k] - a->base[k]);
+    }
+    a->dawn = fminf(a->dawn + FADE_RATE * dt, 1.0f);
 }

@@ -430,7 +430,7 @@ static int compare_wishes(const void *a, const void *b)
 
 static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 {
-    plan p = {.a = a, .camera = camera, .mean = alpi_ambience_mean(a->base), .result = ALP_OK};
+    plan p = {.a = a, .camera = camera, .mean = a->mean, .result = ALP_OK};
     int32_t index[3];
     a->wish_count = 0;
     a->plan_age = 0;

@@ -169,3 +169,71 @@ TEST(changes_after_a_request_outlive_its_answer)
     change_on_the_way(true, false);
     change_on_the_way(true, true);
 }
+
+// --- first light ---------------------------------------------------------------------------------
+
+/// Light that comes when time has moved does not jump, wherever it comes first.
+TEST(first_light_dawns)
+{
+    const alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    const double places[2][3] = {{0.3, 0.2, -0.4}, {100.0, 0.0, 0.0}}; // the second has the base
+    alp_ambience_options o = small_options();
+    o.anchor_limit = 300;
+    for (uint32_t seed = 0; seed < 4; seed++) {
+        alp_ambience *a = world_open(context, &o);
+        float before[2] = {0.0f, 0.0f}, most = 0.0f;
+        uint64_t state = seed;
+        for (int frame = 0; frame < 600; frame++) {
+            ASSERT_OK(context, alp_ambience_update(a, frame * FRAME));
+            for (int i = 0; i < 2 && frame > 0; i++) {
+                const float e = read_up(a, places[i]);
+                most = fmaxf(most, fabsf(e - before[i]));
+                before[i] = e;
+            }
+            alp_ambience_request request = {0};
+            for (int i = 0; i < 10 && frame > 30; i++) { // light that differs from place to place
+                const float level = (float)(0.5 + world_random(&state));
+                const alp_sh9 light = {.c = {{level, level, level}}};
+                ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+                if (request.id != 0) {
+                    ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+                }
+            }
+        }
+        print_message("%.3f %% a frame\n", 100.0 * (double)(most / a->mean));
+        assert_true(before[1] > 0.5f * a->mean);
+        assert_true(most <= 0.01f * a->mean);
+        alp_ambience_destroy(a);
+    }
+}
+
+/// A camera that jumps to bright places: where no anchor is, light follows slowly.
+TEST(light_without_anchors_does_not_jump)
+{
+    const double place[3] = {0.0, 0.0, 500.0};
+    alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    alp_ambience_options o = small_options();
+    o.anchor_limit = 300;
+    alp_ambience *a = world_open(context, &o);
+    float before = 0.0f, most = 0.0f;
+    world_warm(a, &camera, -1e9);
+    camera.position[0] = 300.0;
+    for (int frame = 0; frame < 1800; frame++) {
+        ASSERT_OK(context, alp_ambience_update(a, frame * FRAME));
+        const float e = read_up(a, place);
+        most = fmaxf(most, frame > 0 ? fabsf(e - before) : 0.0f);
+        before = e;
+        for (int i = 0; i < 10; i++) {
+            alp_ambience_request request;
+            const alp_sh9 light = {.c = {{3.0f, 3.0f, 3.0f}}};
+            ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+            if (request.id != 0) {
+                ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+            }
+        }
+    }
+    print_message("%.3f %% a frame\n", 100.0 * (double)(most / a->mean));
+    ASSERT_NEAR(before, 3.0 * ALPI_PI * 0.28209479, 0.02);
+    assert_true(most <= 0.01f * a->mean);
+    alp_ambience_destroy(a);
+}

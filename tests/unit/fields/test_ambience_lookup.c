@@ -62,7 +62,7 @@ static float siblings(const alp_ambience *a, uint32_t level, const int32_t index
 
 static void twin_read(const alp_ambience *a, const double p[3], float light[ALPI_AMBIENCE_FLOATS])
 {
-    float rest = 1.0f;
+    float rest = a->dawn;
     memset(light, 0, ALPI_AMBIENCE_FLOATS * sizeof *light);
     for (uint32_t level = 0; level <= a->graph.depth; level++) {
         const double cell = a->unit * pow(3.0, level);
@@ -197,7 +197,7 @@ TEST(even_light_is_read_exactly)
     const alp_ambience_camera camera = {.position = {0.3, 0.2, 0.1}};
     alp_sh9 even = {.c = {{1.0f, 2.0f, 3.0f}}};
     uint64_t state = 5;
-    for (int frame = 0; frame < 30; frame++) {
+    for (int frame = 0; frame < 40; frame++) {
         ASSERT_OK(context, alp_ambience_update(a, 0.1 * frame));
         for (int i = 0; i < 20; i++) {
             alp_ambience_request request;
