@@ -280,6 +280,86 @@ static void *answer_all(void *user)
     return NULL;
 }
 
+typedef struct racer {
+    alp_ambience *ambience;
+    const alp_ambience_request *requests;
+    uint32_t count;
+    float level; // 0: says that all lie in solids
+    atomic_int *waiting;
+    alp_result results[64];
+} racer;
+
+static void *race(void *user)
+{
+    racer *r = user;
+    const alp_sh9 light = {.c = {{r->level, r->level, r->level}}};
+    atomic_fetch_sub(r->waiting, 1);
+    while (atomic_load(r->waiting) > 0) { // both begin together
+    }
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint64_t id = r->requests[i].id;
+        r->results[i] = r->level > 0.0f ? alp_ambience_submit(r->ambience, id, &light)
+                                        : alp_ambience_submit_solid(r->ambience, id);
+    }
+    return NULL;
+}
+
+static void race_for(alp_ambience *a, float second_level)
+{
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    alp_ambience_request requests[64];
+    uint32_t count = 0;
+    while (count < 64) {
+        ASSERT_OK(context, alp_ambience_next(a, &camera, &requests[count]));
+        if (requests[count].id == 0) {
+            break;
+        }
+        count++;
+    }
+    atomic_int waiting;
+    atomic_init(&waiting, 2);
+    racer racers[2] = {{.level = 1.0f}, {.level = second_level}};
+    pthread_t threads[2];
+    for (int i = 0; i < 2; i++) {
+        racers[i].ambience = a;
+        racers[i].requests = requests;
+        racers[i].count = count;
+        racers[i].waiting = &waiting;
+        assert_int_equal(pthread_create(&threads[i], NULL, race, &racers[i]), 0);
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+    }
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    for (uint32_t i = 0; i < count; i++) {
+        const bool first = racers[0].results[i] == ALP_OK;
+        assert_int_equal(racers[first ? 1 : 0].results[i], ALP_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(racers[first ? 0 : 1].results[i], ALP_OK);
+        int32_t index[3];
+        const uint32_t level = (uint32_t)lround(log(requests[i].cell) / log(3.0));
+        assert_true(alpi_ambience_index(a, level, requests[i].position, index));
+        const uint32_t node = alpi_graph_find(&a->graph, level, index);
+        const alpi_anchor *at = &a->anchors[a->graph.nodes[node].anchor];
+        if (!first && !(second_level > 0.0f)) {
+            assert_int_equal(at->state, ALPI_ANCHOR_SOLID);
+        } else {
+            ASSERT_NEAR(a->lights.light[at->slot][0], first ? 1.0f : second_level, 0.0);
+        }
+    }
+}
+
+/// Two threads answer each request: one answer is taken whole, the other is refused.
+TEST(racing_answers_count_once)
+{
+    alp_ambience *a = open_default();
+    for (int round = 0; round < 20; round++) {
+        race_for(a, 2.0f);
+        race_for(a, 0.0f);
+    }
+    assert_true(alp_ambience_get_info(a).anchors > 100);
+    alp_ambience_destroy(a);
+}
+
 /// Eight readers through a flight that grows and prunes, and answers from another thread.
 TEST(readers_need_no_locks)
 {
