@@ -285,7 +285,7 @@ typedef struct racer {
     const alp_ambience_request *requests;
     uint32_t count;
     float level; // 0: says that all lie in solids
-    atomic_int *waiting;
+    atomic_uint *arrived;
     alp_result results[64];
 } racer;
 
@@ -293,11 +293,11 @@ static void *race(void *user)
 {
     racer *r = user;
     const alp_sh9 light = {.c = {{r->level, r->level, r->level}}};
-    atomic_fetch_sub(r->waiting, 1);
-    while (atomic_load(r->waiting) > 0) { // both begin together
-    }
     for (uint32_t i = 0; i < r->count; i++) {
         const uint64_t id = r->requests[i].id;
+        atomic_fetch_add(r->arrived, 1);
+        while (atomic_load(r->arrived) < 2 * (i + 1)) { // both answer together
+        }
         r->results[i] = r->level > 0.0f ? alp_ambience_submit(r->ambience, id, &light)
                                         : alp_ambience_submit_solid(r->ambience, id);
     }
@@ -316,15 +316,15 @@ static void race_for(alp_ambience *a, float second_level)
         }
         count++;
     }
-    atomic_int waiting;
-    atomic_init(&waiting, 2);
+    atomic_uint arrived;
+    atomic_init(&arrived, 0);
     racer racers[2] = {{.level = 1.0f}, {.level = second_level}};
     pthread_t threads[2];
     for (int i = 0; i < 2; i++) {
         racers[i].ambience = a;
         racers[i].requests = requests;
         racers[i].count = count;
-        racers[i].waiting = &waiting;
+        racers[i].arrived = &arrived;
         assert_int_equal(pthread_create(&threads[i], NULL, race, &racers[i]), 0);
     }
     for (int i = 0; i < 2; i++) {
