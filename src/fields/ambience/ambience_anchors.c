@@ -77,6 +77,18 @@ float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS])
     return (float)(ALP_SH_A0 * ALP_SH_Y0) * (light[0] + light[1] + light[2]) / 3.0f;
 }
 
+/// +x −x +y −y +z −z.
+static vec3 axis_normal(int i)
+{
+    const float way = i % 2 == 0 ? 1.0f : -1.0f;
+    return (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f, i / 2 == 2 ? way : 0.0f};
+}
+
+static float largest_part(vec3 e)
+{
+    return fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z)));
+}
+
 /// Largest difference of E over six normals and the channels.
 static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
                              const float b[ALPI_AMBIENCE_FLOATS])
@@ -87,11 +99,7 @@ static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
         apart.c[i / 3][i % 3] = a[i] - b[i];
     }
     for (int i = 0; i < 6; i++) {
-        const float way = i % 2 == 0 ? 1.0f : -1.0f;
-        const vec3 e =
-            alpi_sh9_irradiance(&apart, (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f,
-                                               i / 2 == 2 ? way : 0.0f});
-        largest = fmaxf(largest, fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z))));
+        largest = fmaxf(largest, largest_part(alpi_sh9_irradiance(&apart, axis_normal(i))));
     }
     return largest;
 }
@@ -128,20 +136,22 @@ static void put(alpi_light_pool *pool, uint32_t slot, const alpi_sh9 *radiance,
 /// Largest difference of E between new light and what readers see at the anchor now.
 static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_sh9 *radiance)
 {
-    float before[ALPI_AMBIENCE_FLOATS], now[ALPI_AMBIENCE_FLOATS];
+    float now[ALPI_AMBIENCE_FLOATS], largest = 0.0f;
     memcpy(now, radiance->c, sizeof now);
     if (at->slot != ALPI_NO_SLOT) {
-        memcpy(before, a->lights.light[at->slot], sizeof before);
-    } else {
-        double place[3];
-        alpi_anchor_place(a, at, place);
-        alpi_ambience_read(published(a), place, NULL, before);
-        const float dawn = published(a)->dawn; // all light fades together
-        for (int i = 0; i < ALPI_AMBIENCE_FLOATS && dawn > 0.0f; i++) {
-            before[i] /= dawn;
-        }
+        return find_difference(now, a->lights.light[at->slot]);
     }
-    return find_difference(now, before);
+    const alp_ambience_snapshot *s = published(a);
+    const float scale = s->dawn > 0.0f ? 1.0f / s->dawn : 0.0f; // all light dawns together
+    double place[3];
+    alpi_anchor_place(a, at, place);
+    for (int i = 0; i < 6; i++) {
+        const vec3 normal = axis_normal(i);
+        const vec3 before = vec3_scale(alpi_ambience_irradiance_at(s, place, normal), scale);
+        largest =
+            fmaxf(largest, largest_part(vec3_sub(alpi_sh9_irradiance(radiance, normal), before)));
+    }
+    return largest;
 }
 
 /// How far light at an anchor is from that without it, over the mean.

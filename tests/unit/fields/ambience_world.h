@@ -97,9 +97,9 @@ static inline uint32_t world_answer_seen(alp_ambience *ambience, const alp_ambie
         if (place[1] < ground) {
             alpi_anchor_solid(ambience, anchor, 0.0f, ambience->stale_serial);
         } else {
-            ASSERT_OK(context, alpi_anchor_light(ambience, anchor, &light,
-                                                 (const float(*)[2])moments,
-                                                 ambience->stale_serial));
+            ASSERT_OK(context,
+                      alpi_anchor_light(ambience, anchor, &light, (const float(*)[2])moments,
+                                        ambience->stale_serial));
         }
     }
     return done;

@@ -79,8 +79,7 @@ static double twin_sees(const alp_ambience *a, const alpi_anchor *at, const doub
 {
     const float(*moments)[2] = (const float(*)[2])a->lights.moments[at->slot];
     const double distance = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-    const vec2 uv =
-        alpi_octahedral_encode((vec3){(float)way[0], (float)way[1], (float)way[2]});
+    const vec2 uv = alpi_octahedral_encode((vec3){(float)way[0], (float)way[1], (float)way[2]});
     const double u = 8.0 * (double)uv.x - 0.5, v = 8.0 * (double)uv.y - 0.5;
     double m[2] = {0.0, 0.0};
     if (!(distance > 0.0)) {
