@@ -50,26 +50,36 @@ static bool all_finite(const double v[3])
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
+static alp_result refuse_camera(const alp_ambience *a)
+{
+    return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
+                     "ambience: the camera's position, velocity, objects or path are not finite");
+}
+
 static alp_result check_camera(const alp_ambience *a, const alp_ambience_camera *c)
 {
-    bool good = all_finite(c->position) && all_finite(c->velocity) && all_finite(c->forward) &&
-                isfinite(c->vfov);
-    for (uint32_t i = 0; c->objects != NULL && i < c->object_count; i++) {
-        good = good && all_finite(c->objects[i]) && isfinite(c->objects[i][3]);
-    }
-    for (uint32_t i = 0; c->path != NULL && i < c->path_count; i++) {
-        good = good && isfinite(c->path[i][0]) && all_finite(c->path[i] + 1);
-    }
-    if (!good) {
-        return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "ambience: the camera's position, velocity, objects or path are not "
-                         "finite");
+    if (!all_finite(c->position) || !all_finite(c->velocity) || !all_finite(c->forward) ||
+        !isfinite(c->vfov)) {
+        return refuse_camera(a);
     }
     if (isnan(a->time)) {
         return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
                          "ambience: nothing is sampled before the first update");
     }
     return ALP_OK;
+}
+
+/// Objects and the path may be many, and are read by plans alone.
+static alp_result check_lists(const alp_ambience *a, const alp_ambience_camera *c)
+{
+    bool good = true;
+    for (uint32_t i = 0; c->objects != NULL && i < c->object_count; i++) {
+        good = good && all_finite(c->objects[i]) && isfinite(c->objects[i][3]);
+    }
+    for (uint32_t i = 0; c->path != NULL && i < c->path_count; i++) {
+        good = good && isfinite(c->path[i][0]) && all_finite(c->path[i] + 1);
+    }
+    return good ? ALP_OK : refuse_camera(a);
 }
 
 /// Place on a known path, which stays at its ends.
@@ -432,6 +442,7 @@ static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 {
     plan p = {.a = a, .camera = camera, .mean = a->mean, .result = ALP_OK};
     int32_t index[3];
+    ALP_TRY(check_lists(a, camera));
     a->wish_count = 0;
     a->plan_age = 0;
     memcpy(a->planned_from, camera->position, sizeof a->planned_from);
