@@ -158,7 +158,7 @@ void alp_ambience_destroy(alp_ambience *a)
     alpi_release(a->context, a->anchors);
     alpi_lights_close(&a->lights);
     alpi_lights_close(&a->nexts);
-    alpi_release(a->context, a->slots);
+    alpi_requests_destroy(a);
     alpi_release(a->context, a->wishes);
     alpi_release(a->context, a);
 }

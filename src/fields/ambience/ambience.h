@@ -52,6 +52,7 @@ typedef struct alpi_anchor {
 } alpi_anchor;
 
 typedef struct alpi_request_slot alpi_request_slot;
+typedef struct alpi_face_table alpi_face_table;
 
 /// A place that is wanted, with the urgency to sample it.
 typedef struct alpi_wish {
@@ -77,6 +78,7 @@ struct alp_ambience {
     alpi_request_slot *slots;
     uint64_t slot_serial;
     bool requests_open;
+    _Atomic(alpi_face_table *) face_tables; // a list that grows alone, by any thread
 
     double time, first_time;          // NaN before the first update
     float base[ALPI_AMBIENCE_FLOATS]; // light where no anchor has any: follows their mean
@@ -136,6 +138,7 @@ float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
 // --- requests ------------------------------------------------------------------------------------
 
 alp_result alpi_requests_create(alp_ambience *ambience);
+void alpi_requests_destroy(alp_ambience *ambience);
 /// Opens a request for an anchor. @return its number; 0: too many are open
 uint64_t alpi_request_open(alp_ambience *ambience, uint32_t anchor);
 /// Gives answers to their anchors, and drops requests that are too old.

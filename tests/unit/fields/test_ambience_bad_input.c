@@ -77,6 +77,19 @@ TEST(a_camera_that_is_nowhere_is_refused)
     alp_ambience_destroy(a);
 }
 
+TEST(objects_and_paths_nowhere_are_refused)
+{
+    alp_ambience *a = open_default();
+    alp_ambience_request request;
+    const double objects[2][4] = {{1.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, (double)NAN}};
+    const double path[2][4] = {{0.0, 0.0, 0.0, 0.0}, {1.0, HUGE_VAL, 0.0, 0.0}};
+    const alp_ambience_camera near = {.objects = objects, .object_count = 2};
+    const alp_ambience_camera on = {.path = path, .path_count = 2};
+    assert_int_equal(alp_ambience_next(a, &near, &request), ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_ambience_next(a, &on, &request), ALP_ERROR_INVALID_ARGUMENT);
+    alp_ambience_destroy(a);
+}
+
 TEST(look_ups_nowhere_are_black)
 {
     alp_ambience *a = open_default();
@@ -232,6 +245,30 @@ TEST(faces_are_projected)
     ASSERT_NEAR(light.c[3][1], 0.0, 1e-4);
     alp_ambience_end_read(a, s);
     alp_ambience_destroy(a);
+}
+
+/// The table of a size is made at its first use.
+TEST(faces_of_one_size_share_a_table)
+{
+    int left = 1 << 30;
+    alp_context *counting = test_context_failing(&left);
+    alp_ambience *a = world_open(counting, NULL);
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    static float pixels[16 * 16 * 3];
+    const float *faces[6] = {pixels, pixels, pixels, pixels, pixels, pixels};
+    ASSERT_OK(counting, alp_ambience_update(a, 0.0));
+    for (int i = 0; i < 6; i++) {
+        alp_ambience_request request;
+        ASSERT_OK(counting, alp_ambience_next(a, &camera, &request));
+        const int before = left;
+        left = i < 2 ? 0 : left; // no memory for a table: the request stays open
+        const alp_result result = alp_ambience_submit_faces(a, request.id, i % 2 ? 8 : 16, faces);
+        assert_int_equal(result, i < 2 ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK);
+        left = i < 2 ? before : left;
+        assert_true((left == before) == (i < 2 || i > 3));
+    }
+    alp_ambience_destroy(a);
+    alp_context_destroy(counting);
 }
 
 // --- threads -------------------------------------------------------------------------------------
