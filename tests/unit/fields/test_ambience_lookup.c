@@ -230,6 +230,7 @@ static void fuzz(bool flat, bool visibility, uint64_t seed)
     assert_int_equal(info.nodes, 1);
     assert_int_equal(info.levels, 4);
     assert_int_equal(info.open, 0);
+    assert_in_range(a->graph.node_end, 1, 64); // and its memory is given back
     alp_ambience_destroy(a);
 }
 
