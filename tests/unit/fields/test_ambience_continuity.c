@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light of the ambience volume is continuous in time and space, along random ways of a camera. E at
 // fixed points changes by 1 % of the mean from frame to frame at most, and by .1 % along 1 mm.
-// Behind a wall without thickness, light fades within centimetres: .1 % along .1 mm.
+// Behind a wall without thickness, light fades within centimetres: .1 % along .01 mm.
 #include "ambience_world.h"
 
 TEST_CONTEXT(2);
@@ -137,7 +137,7 @@ TEST(light_that_is_seen_does_not_jump)
 {
     const alp_ambience_options o = walk_options(true);
     const int paths = count_paths("AMBIENCE_PATHS", 5, 50);
-    walk most = {.length = 1e-4};
+    walk most = {.length = 1e-5};
     for (int i = 0; i < paths; i++) {
         walk_path(&o, (uint64_t)i + 1390, &most); // 1416: a point by the wall
     }
