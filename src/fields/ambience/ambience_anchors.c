@@ -115,12 +115,15 @@ static bool is_first(const alp_ambience *a)
     return !(a->time > a->first_time);
 }
 
-/// Distances of an anchor without any: it sees everything.
-static void see_all(alpi_light_pool *pool, uint32_t slot)
+/// Distances of an anchor without any: it sees all points that read it. In a volume they are within
+/// a cell's diagonal, and a lift of a quarter of a cell. In a flat one they have any height.
+static void see_all(alp_ambience *a, const alpi_anchor *at)
 {
-    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && pool->visibility; i++) {
-        pool->moments[slot][i][0] = 1e9f;
-        pool->moments[slot][i][1] = 1e18f;
+    const float cell = (float)alpi_ambience_cell(a, at->level);
+    const float reach = a->options.flat ? 1e9f : 2.0f * cell;
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && a->lights.visibility; i++) {
+        a->lights.moments[at->slot][i][0] = reach;
+        a->lights.moments[at->slot][i][1] = reach * reach;
     }
 }
 
@@ -224,7 +227,7 @@ static alp_result take_slots(alp_ambience *a, alpi_anchor *at, bool renewed)
 {
     if (at->slot == ALPI_NO_SLOT) {
         ALP_TRY(alpi_lights_take(&a->lights, &at->slot));
-        see_all(&a->lights, at->slot);
+        see_all(a, at);
     }
     if (renewed && at->next == ALPI_NO_SLOT) {
         ALP_TRY(alpi_lights_take(&a->nexts, &at->next));

@@ -250,6 +250,43 @@ TEST(flat_look_ups_are_the_twins)
     }
 }
 
+/// Light that a host submits comes without distances: it is read as without visibility.
+static void compare_without_distances(bool flat)
+{
+    alp_ambience_options o = small_options();
+    const alp_ambience_camera camera = {.position = {0.3, 0.2, 0.1}};
+    alp_ambience *volumes[2];
+    float e[2][1][3];
+    uint64_t state = 11;
+    o.flat = flat;
+    for (int i = 0; i < 2; i++) {
+        o.visibility = i == 1;
+        volumes[i] = world_open(context, &o);
+        world_warm(volumes[i], &camera, flat ? -1e9 : -2.0);
+    }
+    for (int k = 0; k < 300; k++) {
+        double p[1][3];
+        const float n[1][3] = {{0.577350269f, 0.577350269f, -0.577350269f}};
+        for (int axis = 0; axis < 3; axis++) {
+            p[0][axis] = 30.0 * (world_random(&state) - 0.5);
+        }
+        for (int i = 0; i < 2; i++) {
+            const alp_ambience_snapshot *s = alp_ambience_begin_read(volumes[i]);
+            alp_ambience_irradiance(s, 1, (const double(*)[3])p, n, e[i]);
+            alp_ambience_end_read(volumes[i], s);
+        }
+        ASSERT_NEAR(e[1][0][0], e[0][0][0], 1e-6);
+    }
+    alp_ambience_destroy(volumes[0]);
+    alp_ambience_destroy(volumes[1]);
+}
+
+TEST(anchors_without_distances_see_all_points_that_read_them)
+{
+    compare_without_distances(false);
+    compare_without_distances(true);
+}
+
 /// The context counts all that the library allocates.
 TEST(look_ups_allocate_nothing)
 {
