@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The live ambience volume: what its files share.
 //
-// The graph (ambience_graph.h) says where anchors are, the anchors (ambience_anchors.c) hold light
-// and fade it, requests (ambience_requests.c) bring it, the plan (ambience_plan.c) says where to
+// The graph (ambience_graph.h) says where anchors are. The anchors (ambience_anchors.c) hold light
+// and fade it. Requests (ambience_requests.c) bring it. The plan (ambience_plan.c) says where to
 // sample next. Readers see none of these: each update copies them to a snapshot
 // (ambience_snapshot.h).
 #ifndef ALPI_FIELDS_AMBIENCE_H
@@ -36,6 +36,7 @@ typedef struct alpi_anchor {
     uint32_t slot;         // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
     uint32_t next;         // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
     float mean;            // E of its light
+    float surface;         // of a solid: metres to the nearest surface, at least
     float fade_left;       // seconds until then
     float confidence;      // [0, 1]
     float confidence_rate; // 1/s, below 0 while leaving

@@ -208,8 +208,8 @@ static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump,
 }
 
 /// Openness o of a solid at a share u of its fade. Other places of weight s have the share
-/// s / (s + (1 − s) o) of a level. With one level that rises by a quarter of the steepness at most,
-/// with any number of levels by 1/e of it, for each s above .004.
+/// s / (s + (1 − s) o) of a level. For each s above .004, one level's share rises by a quarter of
+/// the steepness at most. That of several levels rises by 1/e of it.
 static float solid_openness(float u)
 {
     const float end = expf(-SOLID_STEEPNESS);
@@ -293,7 +293,7 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface, uint32_t
     at->pending = false;
     freshen(at, serial);
     at->born = a->time;
-    at->mean = surface;
+    at->surface = surface;
     a->taken++;
     if (at->state != ALPI_ANCHOR_SOLID) {
         at->state = ALPI_ANCHOR_SOLID;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The choice of the next anchors to sample.
 //
-// Each level has a window round the way of the camera: its position, and where it will be within a
-// second, from a known path or from its velocity with inertia. Missing anchors of coarse levels
-// come before those of fine ones, near ones before far ones, those in view and near objects before
-// others, and those where neighbours differ before those where they agree. Anchors are renewed
-// before they expire. At speed, the finest levels would need more anchors than can be sampled: they
-// have no window.
+// Each level has a window round the way of the camera. The way begins at its position, and goes
+// where the camera will be within a second. That follows from a known path, or from its velocity
+// with inertia.
+//
+// Missing anchors come in the order of their level, coarse before fine. Among those of a level,
+// near ones come first, then those in view, near objects, and where neighbours differ. Anchors are
+// renewed before they expire. At speed, the finest levels would need more anchors than can be
+// sampled: they have no window.
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
 
@@ -268,8 +270,8 @@ static bool is_within(const alp_ambience *a, const double place[3], double cell)
     return within;
 }
 
-/// Whether a place is so deep in a solid that no open point reads it: an ancestor lies in a solid
-/// whose surface is farther than the place, and a cell's diagonal.
+/// Whether a place is so deep in a solid that no open point reads it. Then an ancestor lies in a
+/// solid, and its surface is farther than the place and a cell's diagonal.
 static bool is_deep(const alp_ambience *a, uint32_t level, const int32_t index[3],
                     const double place[3])
 {
@@ -286,7 +288,7 @@ static bool is_deep(const alp_ambience *a, uint32_t level, const int32_t index[3
         }
         double middle[3];
         alpi_anchor_place(a, &a->anchors[anchor], middle);
-        if (distance(place, middle) + diagonal < (double)a->anchors[anchor].mean) {
+        if (distance(place, middle) + diagonal < (double)a->anchors[anchor].surface) {
             return true;
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Requests and their answers, which may come from any thread. A slot goes from FREE to OPEN by the
-// thread of the ambience, from OPEN to TAKEN and ANSWERED by the first that answers, and back to
-// FREE at the next update.
+// Requests and their answers, which may come from any thread. The thread of the ambience opens a
+// slot: from FREE to OPEN. The first thread that answers moves it to TAKEN, and then to ANSWERED.
+// The next update frees it.
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
 #include "sh/sh_project.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Anchors sampled by rays through a scene. Light that falls on the surfaces which rays meet is
-// direct light of lamps and suns, traced, and all other light from the snapshot of the last update.
-// So light bounces once more with each renewal.
+// Anchors sampled by rays through a scene. Rays meet surfaces. Direct light of lamps and suns there
+// is traced. All other light is looked up in the snapshot of the last update. So light bounces once
+// more with each renewal.
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
