@@ -30,6 +30,7 @@ typedef struct alpi_anchor {
     bool leaving;          // its light has expired and fades out
     bool again;            // it goes stale when its fade ends
     bool coarse;           // sampled by few rays
+    uint8_t fade_levels;   // on which its confidence changes light, at most
     uint32_t stale_light;  // serial of the change of light that it does not have yet; 0: none
     uint32_t stale_trace;  // the same of geometry
     float height;          // flat: metres of its place along y

@@ -171,6 +171,19 @@ static float fade_seconds(const alp_ambience *a, float change)
     return fminf(fmaxf(change / FADE_RATE, least), longest);
 }
 
+/// Levels on which an anchor is read.
+static uint8_t count_levels(const alp_ambience *a, const alpi_anchor *at)
+{
+    uint32_t node = alpi_graph_find(&a->graph, at->level, at->index);
+    uint8_t count = 0;
+    while (node != ALPI_NO_NODE) {
+        const uint32_t child = a->graph.nodes[node].child;
+        node = child != ALPI_NO_NODE ? child + alpi_graph_middle(a->options.flat) : ALPI_NO_NODE;
+        count++;
+    }
+    return count;
+}
+
 /// Share of a solid's fade in a second. It moves weight between neighbours and coarser levels.
 static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
 {
@@ -184,7 +197,7 @@ static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
             loss = fmaxf(loss, loss_without(a, &a->anchors[other]));
         }
     }
-    return 1.0f / (INVERSE_E * SOLID_STEEPNESS * fade_seconds(a, loss));
+    return 1.0f / fade_seconds(a, INVERSE_E * SOLID_STEEPNESS * loss);
 }
 
 /// Seconds that new light takes: longer for large changes, unless the lighting changed. A
@@ -269,6 +282,8 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
         at->confidence_rate = 1.0f / fade_seconds(a, loss);
+        // A new anchor comes before those of finer levels, which let it in at their own pace.
+        at->fade_levels = at->state == ALPI_ANCHOR_EMPTY ? 1 : count_levels(a, at);
     }
     if (at->state == ALPI_ANCHOR_SOLID) {
         at->solid_rate = solid_rate(a, at);
@@ -301,6 +316,7 @@ void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface, uint32_t
         alpi_lights_give(&a->nexts, &at->next);
         at->confidence_rate =
             at->slot != ALPI_NO_SLOT ? -1.0f / fade_seconds(a, loss_without(a, at)) : 0.0f;
+        at->fade_levels = count_levels(a, at);
         at->solid_rate = solid_rate(a, at);
         if (is_first(a)) {
             at->confidence = 0.0f;
@@ -327,18 +343,6 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
     at->version = ++a->version_serial;
 }
 
-/// Levels on which an anchor is read.
-static uint32_t count_levels(const alp_ambience *a, const alpi_anchor *at)
-{
-    uint32_t count = 0, node = alpi_graph_find(&a->graph, at->level, at->index);
-    while (node != ALPI_NO_NODE) {
-        const uint32_t child = a->graph.nodes[node].child;
-        node = child != ALPI_NO_NODE ? child + alpi_graph_middle(a->options.flat) : ALPI_NO_NODE;
-        count++;
-    }
-    return count;
-}
-
 /// How fast light at a place follows the confidence f of an anchor. On m levels, the anchor has the
 /// share 1 − (1 − f)^m. It has fewer levels beside its place.
 static float find_steepness(uint32_t levels, float confidence)
@@ -357,7 +361,7 @@ static void fade_confidence(alp_ambience *a, alpi_anchor *at, float step)
     const float limit = at->confidence_rate < 0.0f ? 0.0f : 1.0f;
     const bool waits = limit > 0.0f && at->closed > 0.0f;
     if (at->confidence_rate != 0.0f && at->confidence != limit && !waits) {
-        const float steepness = find_steepness(count_levels(a, at), at->confidence);
+        const float steepness = find_steepness(at->fade_levels, at->confidence);
         const float moved = at->confidence + at->confidence_rate * step / steepness;
         at->confidence = limit > 0.0f ? fminf(moved, 1.0f) : fmaxf(moved, 0.0f);
         at->version = ++a->version_serial;
@@ -388,6 +392,7 @@ static void step_lit(const alp_ambience *a, alpi_anchor *at)
     if (!at->leaving && a->time - at->born > a->options.lifetime) {
         at->leaving = true;
         at->confidence_rate = -1.0f / fade_seconds(a, loss_without(a, at));
+        at->fade_levels = count_levels(a, at);
     }
 }
 
