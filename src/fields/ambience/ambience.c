@@ -158,33 +158,12 @@ void alp_ambience_destroy(alp_ambience *a)
     alpi_release(a->context, a->anchors);
     alpi_lights_close(&a->lights);
     alpi_lights_close(&a->nexts);
-    alpi_release(a->context, a->slots);
+    alpi_requests_destroy(a);
     alpi_release(a->context, a->wishes);
     alpi_release(a->context, a);
 }
 
 // --- update --------------------------------------------------------------------------------------
-
-/// Mean of all anchors, by confidence and the volume of their cells; the last one without any.
-static void find_base(alp_ambience *a)
-{
-    double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
-    for (uint32_t i = 0; i < a->anchor_end; i++) {
-        const alpi_anchor *at = &a->anchors[i];
-        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) || at->slot == ALPI_NO_SLOT) {
-            continue;
-        }
-        const double width = (double)alpi_graph_width(at->level);
-        const double w = (double)at->confidence * width * width * (a->options.flat ? 1.0 : width);
-        for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
-            sums[k] += w * (double)a->lights.light[at->slot][k];
-        }
-        total += w;
-    }
-    for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
-        a->base[k] = total > 0.0 ? (float)(sums[k] / total) : a->base[k];
-    }
-}
 
 /// How many anchors a second the host samples. While it samples all that are wanted, more may be.
 static void find_rate(alp_ambience *a, double step)
@@ -218,7 +197,7 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
     ALP_TRY(alpi_ambience_compact(a));
-    find_base(a);
+    alpi_ambience_find_base(a, step);
     find_rate(a, step);
     a->plan_age++;
     return alpi_snapshot_publish(a);
@@ -231,6 +210,7 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
         return;
     }
     ambience->plan_age = UINT32_MAX / 2;
+    ambience->stale_serial++;
     for (uint32_t i = 0; i < ambience->anchor_end; i++) {
         alpi_anchor *at = &ambience->anchors[i];
         double place[3];
@@ -240,8 +220,8 @@ void alp_ambience_invalidate(alp_ambience *ambience, bool traced, const double b
             inside = inside && place[k] >= box_min[k] && place[k] <= box_max[k];
         }
         if (inside && at->state != ALPI_ANCHOR_FREE) {
-            at->stale_light = true;
-            at->stale_trace = at->stale_trace || traced;
+            at->stale_light = ambience->stale_serial;
+            at->stale_trace = traced ? ambience->stale_serial : at->stale_trace;
         }
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The live ambience volume: what its files share.
 //
-// The graph (ambience_graph.h) says where anchors are, the anchors (ambience_anchors.c) hold light
-// and fade it, requests (ambience_requests.c) bring it, the plan (ambience_plan.c) says where to
+// The graph (ambience_graph.h) says where anchors are. The anchors (ambience_anchors.c) hold light
+// and fade it. Requests (ambience_requests.c) bring it. The plan (ambience_plan.c) says where to
 // sample next. Readers see none of these: each update copies them to a snapshot
 // (ambience_snapshot.h).
 #ifndef ALPI_FIELDS_AMBIENCE_H
@@ -28,19 +28,22 @@ typedef struct alpi_anchor {
     uint8_t state;         // alpi_anchor_state
     bool pending;          // a request for it is open
     bool leaving;          // its light has expired and fades out
-    bool stale_light;      // lighting changed since
     bool again;            // it goes stale when its fade ends
-    bool stale_trace;      // geometry changed since
     bool coarse;           // sampled by few rays
+    uint8_t fade_levels;   // on which its confidence changes light, at most
+    uint32_t stale_light;  // serial of the change of light that it does not have yet; 0: none
+    uint32_t stale_trace;  // the same of geometry
     float height;          // flat: metres of its place along y
     uint32_t slot;         // of alp_ambience.lights: its light, as readers see it; NO_SLOT: none
     uint32_t next;         // of alp_ambience.nexts: what it becomes; NO_SLOT: it is
     float mean;            // E of its light
+    float surface;         // of a solid: metres to the nearest surface, at least
     float fade_left;       // seconds until then
     float confidence;      // [0, 1]
     float confidence_rate; // 1/s, below 0 while leaving
-    float open;            // 1: no solid, as far as is known; 0: solid
-    float solid_time;      // seconds since it was found to be a solid
+    float open;            // what `closed` leaves of its weight: 1: no solid; 0: solid
+    float closed;          // [0, 1]: share of the fade to a solid; above 0 without light alone
+    float solid_rate;      // 1/s of that fade
     float change;          // relative change of E at its last renewal
     double born;           // when its newest light was sampled
     double wanted;         // when a window last held it
@@ -51,6 +54,7 @@ typedef struct alpi_anchor {
 } alpi_anchor;
 
 typedef struct alpi_request_slot alpi_request_slot;
+typedef struct alpi_face_table alpi_face_table;
 
 /// A place that is wanted, with the urgency to sample it.
 typedef struct alpi_wish {
@@ -70,14 +74,18 @@ struct alp_ambience {
     size_t anchor_capacity;
     uint32_t anchor_end, free_anchor, anchor_count;
     uint32_t version_serial; // of anchors
+    uint32_t stale_serial;   // of changes of light and geometry
     alpi_light_pool lights, nexts;
 
     alpi_request_slot *slots;
     uint64_t slot_serial;
     bool requests_open;
+    _Atomic(alpi_face_table *) face_tables; // a list that grows alone, by any thread
 
-    double time, first_time; // NaN before the first update
-    float base[ALPI_AMBIENCE_FLOATS];
+    double time, first_time;          // NaN before the first update
+    float base[ALPI_AMBIENCE_FLOATS]; // light where no anchor has any: follows their mean
+    float mean;                       // E of the mean of all anchors
+    float dawn;                       // [0, 1]: share of all light that is there
     alpi_snapshots snapshots;
 
     alpi_wish *wishes; // sorted, most urgent last
@@ -114,21 +122,25 @@ void alpi_anchor_release(alp_ambience *ambience, uint32_t anchor);
 /// Metres, as alpi_ambience_place; the height of the ground is that when the anchor was made.
 void alpi_anchor_place(const alp_ambience *ambience, const alpi_anchor *anchor, double place[3]);
 /// Takes new light. @param moments NULL, or [MOMENTS]: mean distance and its square
+/// @param serial stale_serial when it was sampled: later changes stay to be sampled
 /// @return ALP_OK; OUT_OF_MEMORY: it keeps what it has
 alp_result alpi_anchor_light(alp_ambience *ambience, uint32_t anchor, const alpi_sh9 *radiance,
-                             const float (*moments)[2]);
+                             const float (*moments)[2], uint32_t serial);
 /// @param surface metres to the nearest surface, at least
-void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface);
+void alpi_anchor_solid(alp_ambience *ambience, uint32_t anchor, float surface, uint32_t serial);
 /// Fades, expires and releases all by a step of time.
 void alpi_anchors_step(alp_ambience *ambience, double step);
 /// Gives memory of anchors that are gone back. @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_ambience_compact(alp_ambience *ambience);
+/// Light where no anchor has any moves to the mean of all anchors. The first light dawns.
+void alpi_ambience_find_base(alp_ambience *ambience, double step);
 /// Mean irradiance over all directions, mean of the channels.
 float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS]);
 
 // --- requests ------------------------------------------------------------------------------------
 
 alp_result alpi_requests_create(alp_ambience *ambience);
+void alpi_requests_destroy(alp_ambience *ambience);
 /// Opens a request for an anchor. @return its number; 0: too many are open
 uint64_t alpi_request_open(alp_ambience *ambience, uint32_t anchor);
 /// Gives answers to their anchors, and drops requests that are too old.

@@ -9,8 +9,8 @@
 /// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
 /// half a per cent a frame; a renewal and a new finer anchor at the same place together make one.
 static const float FADE_RATE = 0.3f;
-/// Weight of a solid, as a share of its places, from which its fade is even: see solid_openness.
-static const float SOLID_SHARE = 0.2f;
+/// Steepness of the fade of a solid: see solid_openness.
+static const float SOLID_STEEPNESS = 8.0f, INVERSE_E = 0.36787944f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
 static const double SOLID_LIFETIMES = 4.0;
 /// Change of E by new lighting, over the mean, from which an anchor is lit once more: what bounced
@@ -77,6 +77,18 @@ float alpi_ambience_mean(const float light[ALPI_AMBIENCE_FLOATS])
     return (float)(ALP_SH_A0 * ALP_SH_Y0) * (light[0] + light[1] + light[2]) / 3.0f;
 }
 
+/// +x −x +y −y +z −z.
+static vec3 axis_normal(int i)
+{
+    const float way = i % 2 == 0 ? 1.0f : -1.0f;
+    return (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f, i / 2 == 2 ? way : 0.0f};
+}
+
+static float largest_part(vec3 e)
+{
+    return fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z)));
+}
+
 /// Largest difference of E over six normals and the channels.
 static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
                              const float b[ALPI_AMBIENCE_FLOATS])
@@ -87,11 +99,7 @@ static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
         apart.c[i / 3][i % 3] = a[i] - b[i];
     }
     for (int i = 0; i < 6; i++) {
-        const float way = i % 2 == 0 ? 1.0f : -1.0f;
-        const vec3 e =
-            alpi_sh9_irradiance(&apart, (vec3){i / 2 == 0 ? way : 0.0f, i / 2 == 1 ? way : 0.0f,
-                                               i / 2 == 2 ? way : 0.0f});
-        largest = fmaxf(largest, fmaxf(fabsf(e.x), fmaxf(fabsf(e.y), fabsf(e.z))));
+        largest = fmaxf(largest, largest_part(alpi_sh9_irradiance(&apart, axis_normal(i))));
     }
     return largest;
 }
@@ -107,12 +115,15 @@ static bool is_first(const alp_ambience *a)
     return !(a->time > a->first_time);
 }
 
-/// Distances of an anchor without any: it sees everything.
-static void see_all(alpi_light_pool *pool, uint32_t slot)
+/// Distances of an anchor without any: it sees all points that read it. In a volume they are within
+/// a cell's diagonal, and a lift of a quarter of a cell. In a flat one they have any height.
+static void see_all(alp_ambience *a, const alpi_anchor *at)
 {
-    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && pool->visibility; i++) {
-        pool->moments[slot][i][0] = 1e9f;
-        pool->moments[slot][i][1] = 1e18f;
+    const float cell = (float)alpi_ambience_cell(a, at->level);
+    const float reach = a->options.flat ? 1e9f : 2.0f * cell;
+    for (int i = 0; i < ALPI_AMBIENCE_MOMENTS && a->lights.visibility; i++) {
+        a->lights.moments[at->slot][i][0] = reach;
+        a->lights.moments[at->slot][i][1] = reach * reach;
     }
 }
 
@@ -128,28 +139,77 @@ static void put(alpi_light_pool *pool, uint32_t slot, const alpi_sh9 *radiance,
 /// Largest difference of E between new light and what readers see at the anchor now.
 static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_sh9 *radiance)
 {
-    float before[ALPI_AMBIENCE_FLOATS], now[ALPI_AMBIENCE_FLOATS];
+    float now[ALPI_AMBIENCE_FLOATS], largest = 0.0f;
     memcpy(now, radiance->c, sizeof now);
     if (at->slot != ALPI_NO_SLOT) {
-        memcpy(before, a->lights.light[at->slot], sizeof before);
-    } else {
-        double place[3];
-        alpi_anchor_place(a, at, place);
-        alpi_ambience_read(published(a), place, NULL, before);
+        return find_difference(now, a->lights.light[at->slot]);
     }
-    return find_difference(now, before);
+    const alp_ambience_snapshot *s = published(a);
+    const float scale = s->dawn > 0.0f ? 1.0f / s->dawn : 0.0f; // all light dawns together
+    double place[3];
+    alpi_anchor_place(a, at, place);
+    for (int i = 0; i < 6; i++) {
+        const vec3 normal = axis_normal(i);
+        const vec3 before = vec3_scale(alpi_ambience_irradiance_at(s, place, normal), scale);
+        largest =
+            fmaxf(largest, largest_part(vec3_sub(alpi_sh9_irradiance(radiance, normal), before)));
+    }
+    return largest;
+}
+
+/// How far light at an anchor is from that without it, over the mean.
+static float loss_without(const alp_ambience *a, const alpi_anchor *at)
+{
+    return a->mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / a->mean : 0.0f;
+}
+
+/// Seconds in which a change of E over the mean fades.
+static float fade_seconds(const alp_ambience *a, float change)
+{
+    const float least = fmaxf((float)a->options.fade, 1e-3f);
+    const float longest = fmaxf(least, (float)a->options.lifetime);
+    return fminf(fmaxf(change / FADE_RATE, least), longest);
+}
+
+/// Levels on which an anchor is read.
+static uint8_t count_levels(const alp_ambience *a, const alpi_anchor *at)
+{
+    uint32_t node = alpi_graph_find(&a->graph, at->level, at->index);
+    uint8_t count = 0;
+    while (node != ALPI_NO_NODE) {
+        const uint32_t child = a->graph.nodes[node].child;
+        node = child != ALPI_NO_NODE ? child + alpi_graph_middle(a->options.flat) : ALPI_NO_NODE;
+        count++;
+    }
+    return count;
+}
+
+/// Share of a solid's fade in a second. It moves weight between neighbours and coarser levels.
+static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
+{
+    const uint32_t node = alpi_graph_find(&a->graph, at->level, at->index);
+    float loss = 0.0f;
+    for (int d = 0; d < ALPI_GRAPH_DIRECTIONS && node != ALPI_NO_NODE; d++) {
+        const uint32_t beside = a->graph.nodes[node].neighbour[d];
+        const uint32_t other =
+            beside != ALPI_NO_NODE ? a->graph.nodes[beside].anchor : ALPI_NO_ANCHOR;
+        if (other != ALPI_NO_ANCHOR && a->anchors[other].slot != ALPI_NO_SLOT) {
+            loss = fmaxf(loss, loss_without(a, &a->anchors[other]));
+        }
+    }
+    return 1.0f / fade_seconds(a, INVERSE_E * SOLID_STEEPNESS * loss);
 }
 
 /// Seconds that new light takes: longer for large changes, unless the lighting changed. A
 /// fade under way goes on at its speed at least, or renewals of still light would never end it.
-static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
+static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump, bool relit)
 {
     const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
     const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
     if (is_first(a)) {
         return 0.0f;
     }
-    if (at->stale_light) { // lamps or the sun moved
+    if (relit) {
         return least;
     }
     if (at->next == ALPI_NO_SLOT) {
@@ -160,12 +220,27 @@ static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump)
     return fminf(fade, longer * at->fade_left);
 }
 
+/// Openness o of a solid at a share u of its fade. Other places of weight s have the share
+/// s / (s + (1 − s) o) of a level. For each s above .004, one level's share rises by a quarter of
+/// the steepness at most. That of several levels rises by 1/e of it.
+static float solid_openness(float u)
+{
+    const float end = expf(-SOLID_STEEPNESS);
+    return (expf(-SOLID_STEEPNESS * u) - end) / (1.0f - end);
+}
+
+static void set_closed(alpi_anchor *at, float closed)
+{
+    at->closed = closed;
+    at->open = solid_openness(closed);
+}
+
 /// Slots for new light. A first light takes the place of none.
 static alp_result take_slots(alp_ambience *a, alpi_anchor *at, bool renewed)
 {
     if (at->slot == ALPI_NO_SLOT) {
         ALP_TRY(alpi_lights_take(&a->lights, &at->slot));
-        see_all(&a->lights, at->slot);
+        see_all(a, at);
     }
     if (renewed && at->next == ALPI_NO_SLOT) {
         ALP_TRY(alpi_lights_take(&a->nexts, &at->next));
@@ -177,15 +252,24 @@ static alp_result take_slots(alp_ambience *a, alpi_anchor *at, bool renewed)
     return ALP_OK;
 }
 
+/// It has all changes up to a serial.
+static void freshen(alpi_anchor *at, uint32_t serial)
+{
+    at->stale_light = at->stale_light <= serial ? 0 : at->stale_light;
+    at->stale_trace = at->stale_trace <= serial ? 0 : at->stale_trace;
+}
+
 alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *radiance,
-                             const float (*moments)[2])
+                             const float (*moments)[2], uint32_t serial)
 {
     alpi_anchor *at = &a->anchors[anchor];
+    const bool relit = at->stale_light != 0 && at->stale_light <= serial;
     const bool renewed = at->slot != ALPI_NO_SLOT && !is_first(a);
-    const float jump = find_jump(a, at, radiance), mean = alpi_ambience_mean(a->base);
+    const float jump = find_jump(a, at, radiance);
     at->pending = false;
-    at->change = mean > 0.0f ? jump / mean : 0.0f;
-    const float fade = find_fade(a, at, jump);
+    at->change = a->mean > 0.0f ? jump / a->mean : 0.0f;
+    const float fade = find_fade(a, at, jump, relit);
+    const float loss = at->slot != ALPI_NO_SLOT ? loss_without(a, at) : at->change;
     ALP_TRY(take_slots(a, at, renewed));
     if (renewed && fade > 0.0f) {
         put(&a->nexts, at->next, radiance, moments);
@@ -197,49 +281,52 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     }
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
-        const float least = fmaxf((float)a->options.fade, 1e-3f);
-        const float longest = fmaxf(least, (float)a->options.lifetime);
-        at->confidence_rate = 1.0f / fminf(fmaxf(at->change / FADE_RATE, least), longest);
+        at->confidence_rate = 1.0f / fade_seconds(a, loss);
+        // A new anchor comes before those of finer levels, which let it in at their own pace.
+        at->fade_levels = at->state == ALPI_ANCHOR_EMPTY ? 1 : count_levels(a, at);
+    }
+    if (at->state == ALPI_ANCHOR_SOLID) {
+        at->solid_rate = solid_rate(a, at);
+    }
+    if (is_first(a)) {
+        set_closed(at, 0.0f);
+        a->dawn = 1.0f;
     }
     at->state = ALPI_ANCHOR_LIT;
-    at->again = at->stale_light && at->change > BOUNCE_CHANGE;
-    at->leaving = at->stale_light = at->stale_trace = false;
+    at->again = relit && at->change > BOUNCE_CHANGE;
+    at->leaving = false;
+    freshen(at, serial);
     at->born = a->time;
-    at->open = 1.0f;
     at->version = ++a->version_serial;
     a->taken++;
     return ALP_OK;
 }
 
-void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface)
+void alpi_anchor_solid(alp_ambience *a, uint32_t anchor, float surface, uint32_t serial)
 {
     alpi_anchor *at = &a->anchors[anchor];
-    at->pending = at->stale_light = at->stale_trace = false;
+    at->pending = false;
+    freshen(at, serial);
     at->born = a->time;
-    at->mean = surface;
+    at->surface = surface;
     a->taken++;
     if (at->state != ALPI_ANCHOR_SOLID) {
         at->state = ALPI_ANCHOR_SOLID;
-        at->solid_time = 0.0f;
         at->leaving = false;
         alpi_lights_give(&a->nexts, &at->next);
-        at->confidence_rate = at->confidence > 0.0f ? -1.0f : 0.0f;
+        at->confidence_rate =
+            at->slot != ALPI_NO_SLOT ? -1.0f / fade_seconds(a, loss_without(a, at)) : 0.0f;
+        at->fade_levels = count_levels(a, at);
+        at->solid_rate = solid_rate(a, at);
         if (is_first(a)) {
-            at->open = at->confidence = 0.0f;
-            at->solid_time = FLT_MAX;
+            at->confidence = 0.0f;
+            set_closed(at, 1.0f);
         }
         at->version = ++a->version_serial;
     }
 }
 
 // --- time ----------------------------------------------------------------------------------------
-
-/// Openness of a solid at a share u of its fade. If its places have the weight 1 − s, the others'
-/// share grows evenly: s / (s + (1 − s) o) = s + (1 − s) u.
-static float solid_openness(float u)
-{
-    return u >= 1.0f ? 0.0f : SOLID_SHARE * (1.0f - u) / (SOLID_SHARE + (1.0f - SOLID_SHARE) * u);
-}
 
 static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
 {
@@ -249,40 +336,53 @@ static void fade_light(alp_ambience *a, alpi_anchor *at, float step)
     } else {
         alpi_lights_copy(&a->lights, at->slot, &a->nexts, at->next);
         alpi_lights_give(&a->nexts, &at->next);
-        at->stale_light = at->stale_light || at->again; // light that bounced there changed too
+        at->stale_light = at->again ? a->stale_serial : at->stale_light; // it bounced there too
         at->again = false;
     }
     at->mean = alpi_ambience_mean(a->lights.light[at->slot]);
     at->version = ++a->version_serial;
 }
 
+/// How fast light at a place follows the confidence f of an anchor. On m levels, the anchor has the
+/// share 1 − (1 − f)^m. It has fewer levels beside its place.
+static float find_steepness(uint32_t levels, float confidence)
+{
+    float most = 1.0f, power = 1.0f;
+    for (uint32_t m = 2; m <= levels; m++) {
+        power *= 1.0f - confidence;
+        most = fmaxf(most, (float)m * power);
+    }
+    return most;
+}
+
+/// Light at a place that was a solid waits until it is open.
 static void fade_confidence(alp_ambience *a, alpi_anchor *at, float step)
 {
     const float limit = at->confidence_rate < 0.0f ? 0.0f : 1.0f;
-    if (at->confidence_rate != 0.0f && at->confidence != limit) {
-        const float moved = at->confidence + at->confidence_rate * step;
+    const bool waits = limit > 0.0f && at->closed > 0.0f;
+    if (at->confidence_rate != 0.0f && at->confidence != limit && !waits) {
+        const float steepness = find_steepness(at->fade_levels, at->confidence);
+        const float moved = at->confidence + at->confidence_rate * step / steepness;
         at->confidence = limit > 0.0f ? fminf(moved, 1.0f) : fmaxf(moved, 0.0f);
         at->version = ++a->version_serial;
     }
 }
 
-/// How far light at an anchor is from that without it, over the mean.
-static float loss_without(const alp_ambience *a, const alpi_anchor *at)
-{
-    const float mean = alpi_ambience_mean(a->base);
-    return mean > 0.0f ? find_difference(a->lights.light[at->slot], a->base) / mean : 0.0f;
-}
-
-/// Closes a solid, or opens it again when it has not been renewed for long.
+/// Closes a solid once its light is gone. Opens it when it has light, or has not been renewed for
+/// long.
 static void step_solid(alp_ambience *a, alpi_anchor *at, float step)
 {
-    const float fade = fmaxf((float)a->options.fade, 1.0f) * 2.0f;
-    at->leaving = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
-    const float moved = at->solid_time + (at->leaving ? -step : step);
-    const float now = fminf(fmaxf(moved, 0.0f), fade);
-    if (now != at->solid_time) {
-        at->solid_time = now;
-        at->open = solid_openness(now / fade);
+    const bool solid = at->state == ALPI_ANCHOR_SOLID;
+    const bool expired = a->time - at->born > SOLID_LIFETIMES * a->options.lifetime;
+    if (solid && at->leaving != expired) {
+        at->leaving = expired;
+        at->solid_rate = solid_rate(a, at);
+    }
+    const bool closes = solid && !expired && !(at->confidence > 0.0f);
+    const float moved = at->closed + (closes ? step : -step) * at->solid_rate;
+    const float now = fminf(fmaxf(moved, 0.0f), 1.0f);
+    if (now != at->closed) {
+        set_closed(at, now);
         at->version = ++a->version_serial;
     }
 }
@@ -290,39 +390,78 @@ static void step_solid(alp_ambience *a, alpi_anchor *at, float step)
 static void step_lit(const alp_ambience *a, alpi_anchor *at)
 {
     if (!at->leaving && a->time - at->born > a->options.lifetime) {
-        const float least = fmaxf((float)a->options.fade, 1e-3f);
-        const float fade =
-            fmaxf(least, fminf(loss_without(a, at) / FADE_RATE, (float)a->options.lifetime));
         at->leaving = true;
-        at->confidence_rate = -1.0f / fade;
+        at->confidence_rate = -1.0f / fade_seconds(a, loss_without(a, at));
+        at->fade_levels = count_levels(a, at);
     }
 }
 
 void alpi_anchors_step(alp_ambience *a, double step)
 {
     const float dt = (float)step;
+    a->stale_serial++;
     for (uint32_t i = 0; i < a->anchor_end; i++) {
         alpi_anchor *at = &a->anchors[i];
         if (at->state == ALPI_ANCHOR_FREE) {
             continue;
         }
         fade_confidence(a, at, dt);
-        if (at->state == ALPI_ANCHOR_SOLID) {
-            if (!(at->confidence > 0.0f)) {
-                alpi_lights_give(&a->lights, &at->slot);
-            }
-            step_solid(a, at, dt);
-        } else if (at->state == ALPI_ANCHOR_LIT) {
+        if (at->state == ALPI_ANCHOR_SOLID && !(at->confidence > 0.0f)) {
+            alpi_lights_give(&a->lights, &at->slot);
+        }
+        if (at->state == ALPI_ANCHOR_LIT) {
             if (at->next != ALPI_NO_SLOT) {
                 fade_light(a, at, dt);
             }
             step_lit(a, at);
         }
-        const bool gone =
-            at->state == ALPI_ANCHOR_SOLID ? !(at->solid_time > 0.0f) : !(at->confidence > 0.0f);
+        step_solid(a, at, dt);
+        const bool gone = !(at->confidence > 0.0f) && !(at->closed > 0.0f);
         const bool dark = at->state == ALPI_ANCHOR_EMPTY || (at->leaving && gone);
         if (dark && !at->pending) {
             alpi_anchor_release(a, i);
         }
     }
+}
+
+// --- light without anchors -----------------------------------------------------------------------
+
+/// Mean of all anchors, by confidence and the volume of their cells. @return false: none has light
+static bool find_mean(const alp_ambience *a, float mean[ALPI_AMBIENCE_FLOATS])
+{
+    double sums[ALPI_AMBIENCE_FLOATS] = {0.0}, total = 0.0;
+    for (uint32_t i = 0; i < a->anchor_end; i++) {
+        const alpi_anchor *at = &a->anchors[i];
+        if (at->state == ALPI_ANCHOR_FREE || !(at->confidence > 0.0f) || at->slot == ALPI_NO_SLOT) {
+            continue;
+        }
+        const double width = (double)alpi_graph_width(at->level);
+        const double w = (double)at->confidence * width * width * (a->options.flat ? 1.0 : width);
+        for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
+            sums[k] += w * (double)a->lights.light[at->slot][k];
+        }
+        total += w;
+    }
+    for (int k = 0; k < ALPI_AMBIENCE_FLOATS && total > 0.0; k++) {
+        mean[k] = (float)(sums[k] / total);
+    }
+    return total > 0.0;
+}
+
+void alpi_ambience_find_base(alp_ambience *a, double step)
+{
+    float mean[ALPI_AMBIENCE_FLOATS];
+    if (!find_mean(a, mean)) {
+        return;
+    }
+    const bool at_once = is_first(a) || !(a->mean > 0.0f);
+    const float dt = (float)step, apart = find_difference(mean, a->base);
+    a->mean = alpi_ambience_mean(mean);
+    const float level = fmaxf(fmaxf(a->mean, alpi_ambience_mean(a->base)), FLT_MIN);
+    const float seconds = fminf(apart / (FADE_RATE * level), (float)a->options.lifetime);
+    const float share = at_once || dt >= seconds ? 1.0f : dt / seconds;
+    for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
+        a->base[k] += share * (mean[k] - a->base[k]);
+    }
+    a->dawn = fminf(a->dawn + FADE_RATE * dt, 1.0f);
 }

@@ -74,6 +74,9 @@ alp_result alpi_ambience_compact(alp_ambience *a)
     if (is_sparse(a->anchor_count, a->anchor_end)) {
         ALP_TRY(compact_anchors(a));
     }
+    if (is_sparse(a->graph.node_count, a->graph.node_end)) {
+        ALP_TRY(alpi_graph_compact(&a->graph));
+    }
     if (is_sparse(a->lights.count, a->lights.end)) {
         ALP_TRY(compact_lights(a, &a->lights, false));
     }

@@ -419,3 +419,52 @@ void alpi_graph_prune(alpi_graph *g)
     prune_below(g, ALPI_GRAPH_ROOT);
     shrink_root(g);
 }
+
+// --- memory --------------------------------------------------------------------------------------
+
+static bool is_free(const alpi_graph *g, uint32_t block)
+{
+    return g->nodes[block].parent == ALPI_NO_NODE; // the root is in no block
+}
+
+/// Moves the children of a node to a free block.
+static void move_block(alpi_graph *g, uint32_t from, uint32_t to)
+{
+    const uint32_t count = alpi_graph_child_count(g->flat), parent = g->nodes[from].parent;
+    for (uint32_t i = 0; i < count; i++) {
+        clear_node(&g->nodes[to + i]);
+        move_node(g, from + i, to + i);
+        unlink_node(g, from + i);
+    }
+    g->nodes[parent].child = to;
+    for (uint32_t i = 0; i < count; i++) {
+        const alpi_graph_node *old = &g->nodes[from + i];
+        alpi_graph_node *node = &g->nodes[to + i];
+        memcpy(node->index, old->index, sizeof node->index);
+        node->parent = parent;
+        node->level = old->level;
+        node->place = old->place;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        link_child(g, parent, i);
+    }
+}
+
+alp_result alpi_graph_compact(alpi_graph *g)
+{
+    const uint32_t count = alpi_graph_child_count(g->flat);
+    uint32_t hole = 1;
+    while (g->node_end > g->node_count) {
+        const uint32_t last = g->node_end - count;
+        if (!is_free(g, last)) {
+            while (!is_free(g, hole)) {
+                hole += count;
+            }
+            move_block(g, last, hole);
+        }
+        g->node_end = last;
+    }
+    g->free_block = ALPI_NO_NODE;
+    return alpi_fit(g->context, (void **)&g->nodes, &g->node_capacity, g->node_end,
+                    sizeof *g->nodes);
+}

@@ -26,7 +26,7 @@ enum {
     ALPI_GRAPH_CHILDREN = 27,
     ALPI_GRAPH_LEVELS = 19,    // 3^18 units across fit in an index
     ALPI_GRAPH_DIRECTIONS = 6, // −x +x −y +y −z +z
-    ALPI_GRAPH_ROOT = 0        // node; other numbers change when the root grows or shrinks
+    ALPI_GRAPH_ROOT = 0        // node; other numbers change with the root, and by compaction
 };
 
 typedef struct alpi_graph_node {
@@ -75,6 +75,9 @@ void alpi_graph_set_anchor(alpi_graph *graph, uint32_t node, uint32_t anchor);
 /// Removes children without anchors of their own, and shrinks the root to its only used child, down
 /// to its least level.
 void alpi_graph_prune(alpi_graph *graph);
+/// Moves nodes from the end of the pool to free places, and gives memory back. Numbers of nodes
+/// change. @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_graph_compact(alpi_graph *graph);
 
 /// Children of a node.
 static inline uint32_t alpi_graph_child_count(bool flat)

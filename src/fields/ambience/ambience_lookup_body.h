@@ -289,7 +289,7 @@ bool ALPI_VARIANT(alpi_ambience_lookup)(const alp_ambience_snapshot *snapshot,
                                         float light[ALPI_AMBIENCE_FLOATS])
 {
     point_search p;
-    float sums[ALPI_AMBIENCE_FLOATS] = {0.0f}, rest = 1.0f;
+    float sums[ALPI_AMBIENCE_FLOATS] = {0.0f}, rest = snapshot->dawn;
     const bool ours = snapshot->lookup == ALP_AMBIENCE_OURS;
     p.s = snapshot;
     p.height = (float)position[1];

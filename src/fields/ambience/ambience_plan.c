@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The choice of the next anchors to sample.
 //
-// Each level has a window round the way of the camera: its position, and where it will be within a
-// second, from a known path or from its velocity with inertia. Missing anchors of coarse levels
-// come before those of fine ones, near ones before far ones, those in view and near objects before
-// others, and those where neighbours differ before those where they agree. Anchors are renewed
-// before they expire. At speed, the finest levels would need more anchors than can be sampled: they
-// have no window.
+// Each level has a window round the way of the camera. The way begins at its position, and goes
+// where the camera will be within a second. That follows from a known path, or from its velocity
+// with inertia.
+//
+// Missing anchors come in the order of their level, coarse before fine. Among those of a level,
+// near ones come first, then those in view, near objects, and where neighbours differ. Anchors are
+// renewed before they expire. At speed, the finest levels would need more anchors than can be
+// sampled: they have no window.
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
 
@@ -50,26 +52,36 @@ static bool all_finite(const double v[3])
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
+static alp_result refuse_camera(const alp_ambience *a)
+{
+    return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
+                     "ambience: the camera's position, velocity, objects or path are not finite");
+}
+
 static alp_result check_camera(const alp_ambience *a, const alp_ambience_camera *c)
 {
-    bool good = all_finite(c->position) && all_finite(c->velocity) && all_finite(c->forward) &&
-                isfinite(c->vfov);
-    for (uint32_t i = 0; c->objects != NULL && i < c->object_count; i++) {
-        good = good && all_finite(c->objects[i]) && isfinite(c->objects[i][3]);
-    }
-    for (uint32_t i = 0; c->path != NULL && i < c->path_count; i++) {
-        good = good && isfinite(c->path[i][0]) && all_finite(c->path[i] + 1);
-    }
-    if (!good) {
-        return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "ambience: the camera's position, velocity, objects or path are not "
-                         "finite");
+    if (!all_finite(c->position) || !all_finite(c->velocity) || !all_finite(c->forward) ||
+        !isfinite(c->vfov)) {
+        return refuse_camera(a);
     }
     if (isnan(a->time)) {
         return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
                          "ambience: nothing is sampled before the first update");
     }
     return ALP_OK;
+}
+
+/// Objects and the path may be many, and are read by plans alone.
+static alp_result check_lists(const alp_ambience *a, const alp_ambience_camera *c)
+{
+    bool good = true;
+    for (uint32_t i = 0; c->objects != NULL && i < c->object_count; i++) {
+        good = good && all_finite(c->objects[i]) && isfinite(c->objects[i][3]);
+    }
+    for (uint32_t i = 0; c->path != NULL && i < c->path_count; i++) {
+        good = good && isfinite(c->path[i][0]) && all_finite(c->path[i] + 1);
+    }
+    return good ? ALP_OK : refuse_camera(a);
 }
 
 /// Place on a known path, which stays at its ends.
@@ -205,7 +217,7 @@ static float renewal_urgency(const plan *p, const alpi_anchor *at, float near)
     if (at->pending || at->state == ALPI_ANCHOR_EMPTY) {
         return 0.0f;
     }
-    if (at->stale_trace) {
+    if (at->stale_trace != 0) {
         return 30.0f + near;
     }
     if (at->state == ALPI_ANCHOR_SOLID) {
@@ -214,7 +226,7 @@ static float renewal_urgency(const plan *p, const alpi_anchor *at, float near)
     if (age > URGENT) {
         return 25.0f + age;
     }
-    if (at->stale_light) {
+    if (at->stale_light != 0) {
         return 4.0f + 12.0f * fminf(age / RELIGHT, 1.0f) + near;
     }
     if (at->coarse) {
@@ -258,8 +270,8 @@ static bool is_within(const alp_ambience *a, const double place[3], double cell)
     return within;
 }
 
-/// Whether a place is so deep in a solid that no open point reads it: an ancestor lies in a solid
-/// whose surface is farther than the place, and a cell's diagonal.
+/// Whether a place is so deep in a solid that no open point reads it. Then an ancestor lies in a
+/// solid, and its surface is farther than the place and a cell's diagonal.
 static bool is_deep(const alp_ambience *a, uint32_t level, const int32_t index[3],
                     const double place[3])
 {
@@ -276,7 +288,7 @@ static bool is_deep(const alp_ambience *a, uint32_t level, const int32_t index[3
         }
         double middle[3];
         alpi_anchor_place(a, &a->anchors[anchor], middle);
-        if (distance(place, middle) + diagonal < (double)a->anchors[anchor].mean) {
+        if (distance(place, middle) + diagonal < (double)a->anchors[anchor].surface) {
             return true;
         }
     }
@@ -430,8 +442,9 @@ static int compare_wishes(const void *a, const void *b)
 
 static alp_result make_plan(alp_ambience *a, const alp_ambience_camera *camera)
 {
-    plan p = {.a = a, .camera = camera, .mean = alpi_ambience_mean(a->base), .result = ALP_OK};
+    plan p = {.a = a, .camera = camera, .mean = a->mean, .result = ALP_OK};
     int32_t index[3];
+    ALP_TRY(check_lists(a, camera));
     a->wish_count = 0;
     a->plan_age = 0;
     memcpy(a->planned_from, camera->position, sizeof a->planned_from);
@@ -513,6 +526,6 @@ alp_result alp_ambience_next(alp_ambience *ambience, const alp_ambience_camera *
     alpi_anchor_place(ambience, at, request->position);
     request->cell = alpi_ambience_cell(ambience, at->level);
     request->renewal = at->state == ALPI_ANCHOR_LIT;
-    request->relight = request->renewal && at->stale_light && !at->stale_trace;
+    request->relight = request->renewal && at->stale_light != 0 && at->stale_trace == 0;
     return ALP_OK;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Requests and their answers, which may come from any thread. A slot goes from FREE to OPEN by the
-// thread of the ambience, from OPEN to TAKEN and ANSWERED by the first that answers, and back to
-// FREE at the next update.
+// Requests and their answers, which may come from any thread. The thread of the ambience opens a
+// slot: from FREE to OPEN. The first thread that answers moves it to TAKEN, and then to ANSWERED.
+// The next update frees it.
 #include "base/memory.h"
 #include "fields/ambience/ambience.h"
+#include "sh/sh_project.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -19,15 +20,39 @@ static const float LARGEST = 1e30f; // coefficient: sums stay finite
 struct alpi_request_slot {
     _Atomic(uint64_t) word; // serial << STATE_BITS | state
     uint32_t anchor;
+    uint32_t serial; // of the changes of light that were known
     double opened;
     bool solid;
     alpi_sh9 radiance;
 };
 
+/// How faces of one size are projected.
+struct alpi_face_table {
+    alpi_cube_table table;
+    alpi_face_table *next;
+};
+
 alp_result alpi_requests_create(alp_ambience *a)
 {
+    atomic_init(&a->face_tables, NULL);
     a->slots = ALPI_NEW(a->context, alpi_request_slot, SLOTS);
     return a->slots != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+}
+
+static void destroy_table(alp_context *context, alpi_face_table *table)
+{
+    alpi_cube_table_release(context, &table->table);
+    alpi_release(context, table);
+}
+
+void alpi_requests_destroy(alp_ambience *a)
+{
+    alpi_face_table *next = NULL;
+    for (alpi_face_table *t = atomic_load(&a->face_tables); t != NULL; t = next) {
+        next = t->next;
+        destroy_table(a->context, t);
+    }
+    alpi_release(a->context, a->slots);
 }
 
 uint64_t alpi_requests_bytes(void)
@@ -54,6 +79,7 @@ uint64_t alpi_request_open(alp_ambience *a, uint32_t anchor)
         }
         const uint64_t serial = ++a->slot_serial << SLOT_BITS | i;
         slot->anchor = anchor;
+        slot->serial = a->stale_serial;
         slot->opened = a->time;
         slot->solid = false;
         atomic_store(&slot->word, serial << STATE_BITS | OPEN);
@@ -117,6 +143,32 @@ alp_result alp_ambience_submit_solid(alp_ambience *ambience, uint64_t id)
     return ALP_OK;
 }
 
+/// The table of a face's size, made at its first use. Two threads may both make one.
+static alp_result find_table(alp_ambience *a, uint32_t side, const alpi_cube_table **table)
+{
+    alpi_face_table *first = atomic_load(&a->face_tables);
+    for (const alpi_face_table *t = first; t != NULL; t = t->next) {
+        if (t->table.size == side) {
+            *table = &t->table;
+            return ALP_OK;
+        }
+    }
+    alpi_face_table *made = ALPI_NEW(a->context, alpi_face_table, 1);
+    if (made == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = alpi_cube_table_create(a->context, side, &made->table);
+    if (result != ALP_OK) {
+        destroy_table(a->context, made);
+        return result;
+    }
+    do {
+        made->next = first;
+    } while (!atomic_compare_exchange_weak(&a->face_tables, &first, made));
+    *table = &made->table;
+    return ALP_OK;
+}
+
 alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id, uint32_t side,
                                      const float *const faces[6])
 {
@@ -134,12 +186,15 @@ alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id, uint32
                              (unsigned long long)id);
         }
     }
-    alp_sh_projection *projection = NULL;
-    alp_sh9 radiance;
-    ALP_TRY(alp_sh_projection_create(ambience->context, side, &projection));
-    const alp_result result = alp_sh_project_cube(projection, faces, &radiance);
-    alp_sh_projection_destroy(projection);
-    return result == ALP_OK ? alp_ambience_submit(ambience, id, &radiance) : result;
+    const alpi_cube_table *table = NULL;
+    alpi_cube_sums sums = {0};
+    ALP_TRY(find_table(ambience, side, &table));
+    for (int i = 0; i < ALPI_CUBE_FACES; i++) {
+        alpi_cube_add(table, &ALPI_COMPILED_FOR(ambience->context, alpi_cube_sum), (alp_cube_face)i,
+                      0, side, faces[i], &sums);
+    }
+    const alpi_sh9 radiance = alpi_cube_finish(&sums);
+    return alp_ambience_submit(ambience, id, &radiance);
 }
 
 /// Frees a slot that waits too long, unless it is being answered right now.
@@ -163,9 +218,10 @@ alp_result alpi_requests_collect(alp_ambience *a)
         const uint64_t word = atomic_load(&slot->word);
         if ((word & 3u) == ANSWERED) {
             if (slot->solid) {
-                alpi_anchor_solid(a, slot->anchor, 0.0f);
+                alpi_anchor_solid(a, slot->anchor, 0.0f, slot->serial);
             } else {
-                const alp_result one = alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL);
+                const alp_result one =
+                    alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL, slot->serial);
                 result = result == ALP_OK ? one : result;
             }
             atomic_store(&slot->word, (word & ~(uint64_t)3u));

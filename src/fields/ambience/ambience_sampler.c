@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Anchors sampled by rays through a scene. Light that falls on the surfaces which rays meet is
-// direct light of lamps and suns, traced, and all other light from the snapshot of the last update.
-// So light bounces once more with each renewal.
+// Anchors sampled by rays through a scene. Rays meet surfaces. Direct light of lamps and suns there
+// is traced. All other light is looked up in the snapshot of the last update. So light bounces once
+// more with each renewal.
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
@@ -33,11 +33,8 @@ struct alp_ambience_sampler {
     alp_scene *simple;      // NULL, or the same: the sampler's own
     alp_ambience_sampler_options options;
     alpi_tracer *tracer;
-    alpi_lighting *all;   // whose lamps and suns count
-    alpi_lighting *soft;  // the same with the sky that rays meet
-    alpi_lighting *spots; // sources that rays are aimed at
-    alpi_lighting *unused[2];
-    alpi_lighting *space; // all without lamps
+    alpi_lighting *soft;  // all light, of the sky the part that rays meet
+    alpi_lighting *spots; // sources that rays are aimed at; NULL of a single lamp or sun
     alpi_occluders occluders;
     alpi_sphere_hits_point points[BATCH];
     uint32_t anchors[BATCH];
@@ -98,26 +95,22 @@ static alp_result check_options(const alp_ambience_sampler_options *o, const alp
 
 static void clear_lighting(alp_ambience_sampler *s)
 {
-    alpi_lighting **all[] = {&s->soft, &s->spots, &s->unused[0], &s->unused[1], &s->all, &s->space};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        alpi_lighting_destroy(s->scene->context, *all[i]);
-        *all[i] = NULL;
-    }
+    alpi_lighting_destroy(s->scene->context, s->spots); // reads the sky of the other
+    alpi_lighting_destroy(s->scene->context, s->soft);
+    s->soft = s->spots = NULL;
 }
 
 static alp_result make_lighting(alp_ambience_sampler *s)
 {
     const alp_lighting_options *o = &s->options.lighting;
-    ALP_TRY(alpi_lighting_create_quietly(s->scene, o, &s->all));
-    const uint32_t lights = alpi_lighting_light_count(s->all), light = s->options.light;
+    ALP_TRY(alpi_lighting_create_quietly(s->scene, o, &s->soft));
+    const uint32_t lights = alpi_lighting_light_count(s->soft), light = s->options.light;
     if (light != ALPI_NONE && light >= lights) {
         return alpi_fail(s->scene->context, ALP_ERROR_INVALID_ARGUMENT,
                          "ambience: light %u of %u lamps and suns; they are numbered from 0", light,
                          lights);
     }
-    ALP_TRY(alpi_lighting_create_without_lamps(s->scene, o, &s->space));
-    ALP_TRY(alpi_lighting_split_sky(s->all, o, &s->soft, &s->unused[0]));
-    return alpi_lighting_split_sky(s->space, o, &s->unused[1], &s->spots);
+    return light == ALPI_NONE ? alpi_lighting_take_spots(s->soft, o, &s->spots) : ALP_OK;
 }
 
 static double find_height(void *user, double x, double z)
@@ -208,8 +201,7 @@ alp_result alp_ambience_sampler_set_lighting(alp_ambience_sampler *sampler,
     }
     alp_ambience_sampler fresh = *sampler;
     fresh.options.lighting = *lighting;
-    fresh.all = fresh.soft = fresh.spots = fresh.space = NULL;
-    fresh.unused[0] = fresh.unused[1] = NULL;
+    fresh.soft = fresh.spots = NULL;
     const alp_result result = make_lighting(&fresh);
     if (result != ALP_OK) { // the old light stays
         clear_lighting(&fresh);
@@ -318,10 +310,10 @@ static alpi_bounce_fn *choose_bounce(const alp_ambience_sampler_options *o)
 
 static const alpi_lighting *find_aimed(const alp_ambience_sampler *s)
 {
-    const double area = alpi_lighting_emitter_area(s->spots);
-    if (s->options.light != ALPI_NONE) {
+    if (s->spots == NULL) {
         return NULL;
     }
+    const double area = alpi_lighting_emitter_area(s->spots);
     const bool small = area > 0.0 && area < AIMED_AREA * s->scene->area;
     return small || alpi_lighting_sky(s->spots) != NULL ? s->spots : NULL;
 }
@@ -359,9 +351,9 @@ static uint32_t add_point(alp_ambience_sampler *s, uint32_t anchor, uint32_t ind
 {
     alp_ambience *a = s->ambience;
     alpi_anchor *at = &a->anchors[anchor];
-    const bool first = at->state != ALPI_ANCHOR_LIT && s->options.first_face < s->options.face;
+    const bool first = at->state == ALPI_ANCHOR_EMPTY && s->options.first_face < s->options.face;
     const uint32_t face = first ? s->options.first_face : s->options.face;
-    const bool kept = at->hits != NULL && at->hits_face == face && !at->stale_trace;
+    const bool kept = at->hits != NULL && at->hits_face == face && at->stale_trace == 0;
     double place[3];
     alpi_sphere_hits_point *p = &s->points[index];
     alpi_anchor_place(a, at, place);
@@ -392,7 +384,7 @@ static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambien
     // Rays of an anchor on a surface may start on either side.
     if (!p->traced &&
         (p->value.behind > ALPI_FREE_BACKS || surface < ON_SURFACE * (float)a->unit)) {
-        alpi_anchor_solid(a, anchor, surface);
+        alpi_anchor_solid(a, anchor, surface, a->stale_serial);
         if (a->anchors[anchor].hits != NULL) {
             drop_hits(a, &a->anchors[anchor]);
         }
@@ -401,7 +393,8 @@ static alp_result take_light(alp_ambience_sampler *s, uint32_t index, alp_ambien
     const bool moments = a->lights.visibility && !p->traced;
     a->anchors[anchor].coarse = p->face < s->options.face;
     return alpi_anchor_light(a, anchor, &p->value.light,
-                             moments ? (const float(*)[2])s->moments[index] : NULL);
+                             moments ? (const float(*)[2])s->moments[index] : NULL,
+                             a->stale_serial);
 }
 
 static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_work *work)

@@ -119,6 +119,7 @@ alp_result alpi_snapshot_publish(alp_ambience *a)
     ALP_TRY(make_room(a, s));
     memcpy(s->centre, a->options.centre, sizeof s->centre);
     memcpy(s->base, a->base, sizeof s->base);
+    s->dawn = a->dawn;
     s->read = &ALPI_COMPILED_FOR(a->context, alpi_ambience_lookup);
     s->unit = a->unit;
     s->inverse_unit = 1.0 / a->unit;

@@ -11,7 +11,8 @@
 // A node that shares its parent's anchor has at most the largest confidence among its siblings: so
 // it comes and goes with them. A place without an anchor counts with f = 0, o = 1. So coarser
 // levels provide the confidence that is missing, and solids count for nothing. After the last
-// level, the rest is that of the mean of all anchors. All weights are continuous in space and time.
+// level, the rest is that of the mean of all anchors. The rest begins at 1, or less while the first
+// light of the volume dawns. All weights are continuous in space and time.
 #ifndef ALPI_FIELDS_AMBIENCE_SNAPSHOT_H
 #define ALPI_FIELDS_AMBIENCE_SNAPSHOT_H
 
@@ -60,7 +61,7 @@ struct alp_ambience_snapshot {
     float (*light)[ALPI_AMBIENCE_FLOATS];       // c_lm by slot, coefficient and channel
     float (*moments)[ALPI_AMBIENCE_MOMENTS][2]; // NULL without visibility
     size_t anchor_capacity, light_capacity, moment_capacity;
-    float base[ALPI_AMBIENCE_FLOATS];
+    float base[ALPI_AMBIENCE_FLOATS], dawn;
     atomic_uint readers;
 };
 

@@ -198,6 +198,30 @@ alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
     return ALP_OK;
 }
 
+alp_result alpi_lighting_take_spots(alpi_lighting *lighting, const alp_lighting_options *options,
+                                    alpi_lighting **spots)
+{
+    alp_context *context = lighting->scene->context;
+    alp_lighting_options without = *options;
+    alpi_sky *soft = NULL, *bright = NULL;
+    without.sky.kind = ALP_SKY_NONE;
+    ALP_TRY(create_quietly(lighting->scene, &without, false, spots));
+    if (lighting->sky == NULL || !alpi_sky_is_image(lighting->sky)) {
+        return ALP_OK;
+    }
+    const alp_result result = alpi_sky_split(context, lighting->sky, &soft, &bright);
+    if (result != ALP_OK) {
+        alpi_lighting_destroy(context, *spots);
+        *spots = NULL;
+        return result;
+    }
+    alpi_sky_destroy(context, lighting->sky);
+    set_sky(lighting, soft);
+    set_sky(*spots, bright);
+    (*spots)->soft = bright != NULL ? soft : NULL;
+    return ALP_OK;
+}
+
 void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting)
 {
     if (lighting == NULL) {

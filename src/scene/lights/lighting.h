@@ -40,6 +40,13 @@ alp_result alpi_lighting_create_without_lamps(const alp_scene *scene,
 alp_result alpi_lighting_split_sky(const alpi_lighting *lighting,
                                    const alp_lighting_options *options, alpi_lighting **soft,
                                    alpi_lighting **spots);
+/// Takes the bright spots out of the sky of a lighting, which keeps the soft sky and all else. The
+/// spots come with the emissive triangles, without punctual lights and suns. Rays that leave meet
+/// the soft sky: the lighting must live as long.
+/// @param lighting made with the same options
+/// @return ALP_OK; OUT_OF_MEMORY: the lighting stays as it is
+alp_result alpi_lighting_take_spots(alpi_lighting *lighting, const alp_lighting_options *options,
+                                    alpi_lighting **spots);
 void alpi_lighting_destroy(alp_context *context, alpi_lighting *lighting); // NULL does nothing
 /// Whether there is no light at all.
 bool alpi_lighting_is_dark(const alpi_lighting *lighting);

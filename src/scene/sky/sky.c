@@ -400,6 +400,11 @@ alp_result alpi_sky_split(alp_context *context, const alpi_sky *sky, alpi_sky **
     return result;
 }
 
+bool alpi_sky_is_image(const alpi_sky *sky)
+{
+    return sky->kind == ALP_SKY_IMAGE;
+}
+
 const alpi_sky_looks *alpi_sky_spot_looks(const alpi_sky *sky)
 {
     return sky->looks;

@@ -18,6 +18,8 @@ alp_result alpi_sky_create(alp_context *context, const alp_sky_options *options,
                            alpi_sky **sky);
 void alpi_sky_destroy(alp_context *context, alpi_sky *sky); // NULL does nothing
 
+/// Whether it has an image, which may have bright spots. Other skies are soft as a whole.
+bool alpi_sky_is_image(const alpi_sky *sky);
 /// The sky as two whose radiances add up to its own: a soft one, for rays that leave the scene, and
 /// the bright spots of an image, to be asked. Even skies are soft as a whole.
 /// @param soft, spots out: NULL where black. Both are the caller's

@@ -9,11 +9,12 @@
 //     L = Le + albedo/π · (E_lamps + E_bounce)
 //
 // E_lamps comes straight from punctual lights and suns: one shadow ray a hit to each of them, or to
-// ALPI_HITS_LAMPS draws where there are more. A sun's disk is sampled. E_bounce is the caller's to
-// tell. Cosines are those of triangles, not of shading normals.
+// ALPI_HITS_LAMPS draws where there are more. A sun's disk is sampled. The caller provides
+// E_bounce. Cosines are those of triangles, not of shading normals.
 //
-// Panes: a ray goes on behind a pane or ends there, by chance. What it passed colours its albedo,
-// and the sky behind; emission is dimmed by the mean of the channels. Lamps shine through panes.
+// Panes: a ray goes on behind a pane or ends there, by chance. Panes that it passed colour its
+// albedo and the sky behind; emission is dimmed by the mean of the channels. Lamps shine through
+// panes.
 #ifndef ALPI_TRANSPORT_SPHERE_HITS_H
 #define ALPI_TRANSPORT_SPHERE_HITS_H
 

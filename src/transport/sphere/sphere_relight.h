@@ -19,10 +19,10 @@ typedef struct alpi_sphere_met {
 } alpi_sphere_met;
 
 enum { ALPI_DISK_DIRECTIONS = 256 };
-/// A lamp as hits ask it.
+/// A lamp, sampled from hits.
 typedef struct alpi_sphere_lamp {
     uint32_t light; // of the lighting
-    bool distant;   // then: light from `directions`, one random one of which is asked
+    bool distant;   // then: light from `directions`; a hit samples a random one
     vec3 light_each;
     uint32_t mask; // of their number, which is a power of two
     float directions[ALPI_DISK_DIRECTIONS][3];

@@ -6,6 +6,7 @@
 
 #include "test_support.h"
 
+#include "base/octahedral.h"
 #include "fields/ambience/ambience.h"
 
 #include <math.h>
@@ -50,6 +51,56 @@ static inline uint32_t world_answer(alp_ambience *ambience, const alp_ambience_c
             ASSERT_OK(context, alp_ambience_submit(ambience, request.id, &light));
         }
         done++;
+    }
+    return done;
+}
+
+/// Mean distances, and of their squares, to the ground and to a wall without thickness at x = 2.9:
+/// of 4 × 4 directions of each texel.
+static inline void world_distances(const double p[3], double ground, double reach,
+                                   float moments[ALPI_AMBIENCE_MOMENTS][2])
+{
+    memset(moments, 0, ALPI_AMBIENCE_MOMENTS * sizeof *moments);
+    for (int i = 0; i < 32 * 32; i++) {
+        const vec3 d = alpi_octahedral_decode(
+            (vec2){((float)(i % 32) + 0.5f) / 32.0f, ((float)(i / 32) + 0.5f) / 32.0f});
+        const double down = (ground - p[1]) / (double)d.y, across = (2.9 - p[0]) / (double)d.x;
+        double nearest = down > 0.0 ? fmin(down, reach) : reach;
+        nearest = across > 0.0 ? fmin(across, nearest) : nearest;
+        float *texel = moments[i / 32 / 4 * 8 + i % 32 / 4];
+        texel[0] += (float)(nearest / 16.0);
+        texel[1] += (float)(nearest * nearest / 16.0);
+    }
+}
+
+/// As world_answer, with distances. Light behind the wall is half as bright.
+static inline uint32_t world_answer_seen(alp_ambience *ambience, const alp_ambience_camera *camera,
+                                         uint32_t count, double ground)
+{
+    alp_context *context = ambience->context;
+    uint32_t done = 0, anchor;
+    for (; done < count; done++) {
+        double place[3];
+        float moments[ALPI_AMBIENCE_MOMENTS][2];
+        alpi_sh9 light;
+        ASSERT_OK(context, alpi_ambience_choose(ambience, camera, &anchor));
+        if (anchor == ALPI_NO_ANCHOR) {
+            break;
+        }
+        alpi_anchor_place(ambience, &ambience->anchors[anchor], place);
+        const alp_sh9 all = world_light(place, 0.0);
+        for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
+            light.c[i / 3][i % 3] = all.c[i / 3][i % 3] * (place[0] > 2.9 ? 0.5f : 1.0f);
+        }
+        const double cell = alpi_ambience_cell(ambience, ambience->anchors[anchor].level);
+        world_distances(place, ground, 2.0 * cell, moments);
+        if (place[1] < ground) {
+            alpi_anchor_solid(ambience, anchor, 0.0f, ambience->stale_serial);
+        } else {
+            ASSERT_OK(context,
+                      alpi_anchor_light(ambience, anchor, &light, (const float(*)[2])moments,
+                                        ambience->stale_serial));
+        }
     }
     return done;
 }

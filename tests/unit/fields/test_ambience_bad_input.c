@@ -77,6 +77,19 @@ TEST(a_camera_that_is_nowhere_is_refused)
     alp_ambience_destroy(a);
 }
 
+TEST(objects_and_paths_nowhere_are_refused)
+{
+    alp_ambience *a = open_default();
+    alp_ambience_request request;
+    const double objects[2][4] = {{1.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, (double)NAN}};
+    const double path[2][4] = {{0.0, 0.0, 0.0, 0.0}, {1.0, HUGE_VAL, 0.0, 0.0}};
+    const alp_ambience_camera near = {.objects = objects, .object_count = 2};
+    const alp_ambience_camera on = {.path = path, .path_count = 2};
+    assert_int_equal(alp_ambience_next(a, &near, &request), ALP_ERROR_INVALID_ARGUMENT);
+    assert_int_equal(alp_ambience_next(a, &on, &request), ALP_ERROR_INVALID_ARGUMENT);
+    alp_ambience_destroy(a);
+}
+
 TEST(look_ups_nowhere_are_black)
 {
     alp_ambience *a = open_default();
@@ -234,6 +247,30 @@ TEST(faces_are_projected)
     alp_ambience_destroy(a);
 }
 
+/// The table of a size is made at its first use.
+TEST(faces_of_one_size_share_a_table)
+{
+    int left = 1 << 30;
+    alp_context *counting = test_context_failing(&left);
+    alp_ambience *a = world_open(counting, NULL);
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    static float pixels[16 * 16 * 3];
+    const float *faces[6] = {pixels, pixels, pixels, pixels, pixels, pixels};
+    ASSERT_OK(counting, alp_ambience_update(a, 0.0));
+    for (int i = 0; i < 6; i++) {
+        alp_ambience_request request;
+        ASSERT_OK(counting, alp_ambience_next(a, &camera, &request));
+        const int before = left;
+        left = i < 2 ? 0 : left; // no memory for a table: the request stays open
+        const alp_result result = alp_ambience_submit_faces(a, request.id, i % 2 ? 8 : 16, faces);
+        assert_int_equal(result, i < 2 ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK);
+        left = i < 2 ? before : left;
+        assert_true((left == before) == (i < 2 || i > 3));
+    }
+    alp_ambience_destroy(a);
+    alp_context_destroy(counting);
+}
+
 // --- threads -------------------------------------------------------------------------------------
 
 typedef struct reader {
@@ -278,6 +315,86 @@ static void *answer_all(void *user)
                   alp_ambience_submit(w->ambience, w->requests[i].id, &light));
     }
     return NULL;
+}
+
+typedef struct racer {
+    alp_ambience *ambience;
+    const alp_ambience_request *requests;
+    uint32_t count;
+    float level; // 0: says that all lie in solids
+    atomic_uint *arrived;
+    alp_result results[64];
+} racer;
+
+static void *race(void *user)
+{
+    racer *r = user;
+    const alp_sh9 light = {.c = {{r->level, r->level, r->level}}};
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint64_t id = r->requests[i].id;
+        atomic_fetch_add(r->arrived, 1);
+        while (atomic_load(r->arrived) < 2 * (i + 1)) { // both answer together
+        }
+        r->results[i] = r->level > 0.0f ? alp_ambience_submit(r->ambience, id, &light)
+                                        : alp_ambience_submit_solid(r->ambience, id);
+    }
+    return NULL;
+}
+
+static void race_for(alp_ambience *a, float second_level)
+{
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    alp_ambience_request requests[64];
+    uint32_t count = 0;
+    while (count < 64) {
+        ASSERT_OK(context, alp_ambience_next(a, &camera, &requests[count]));
+        if (requests[count].id == 0) {
+            break;
+        }
+        count++;
+    }
+    atomic_uint arrived;
+    atomic_init(&arrived, 0);
+    racer racers[2] = {{.level = 1.0f}, {.level = second_level}};
+    pthread_t threads[2];
+    for (int i = 0; i < 2; i++) {
+        racers[i].ambience = a;
+        racers[i].requests = requests;
+        racers[i].count = count;
+        racers[i].arrived = &arrived;
+        assert_int_equal(pthread_create(&threads[i], NULL, race, &racers[i]), 0);
+    }
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(pthread_join(threads[i], NULL), 0);
+    }
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    for (uint32_t i = 0; i < count; i++) {
+        const bool first = racers[0].results[i] == ALP_OK;
+        assert_int_equal(racers[first ? 1 : 0].results[i], ALP_ERROR_INVALID_ARGUMENT);
+        assert_int_equal(racers[first ? 0 : 1].results[i], ALP_OK);
+        int32_t index[3];
+        const uint32_t level = (uint32_t)lround(log(requests[i].cell) / log(3.0));
+        assert_true(alpi_ambience_index(a, level, requests[i].position, index));
+        const uint32_t node = alpi_graph_find(&a->graph, level, index);
+        const alpi_anchor *at = &a->anchors[a->graph.nodes[node].anchor];
+        if (!first && !(second_level > 0.0f)) {
+            assert_int_equal(at->state, ALPI_ANCHOR_SOLID);
+        } else {
+            ASSERT_NEAR(a->lights.light[at->slot][0], first ? 1.0f : second_level, 0.0);
+        }
+    }
+}
+
+/// Two threads answer each request: one answer is taken whole, the other is refused.
+TEST(racing_answers_count_once)
+{
+    alp_ambience *a = open_default();
+    for (int round = 0; round < 20; round++) {
+        race_for(a, 2.0f);
+        race_for(a, 0.0f);
+    }
+    assert_true(alp_ambience_get_info(a).anchors > 100);
+    alp_ambience_destroy(a);
 }
 
 /// Eight readers through a flight that grows and prunes, and answers from another thread.

@@ -186,6 +186,10 @@ static void fuzz(bool flat, uint64_t seed, int steps)
             t.places[t.count++] = top_of(p);
         }
         alpi_graph_prune(&g);
+        if (step % 3 == 0) {
+            ASSERT_OK(context, alpi_graph_compact(&g));
+            assert_int_equal(g.node_end, g.node_count);
+        }
         if (step % 7 == 0) {
             const uint32_t count = check_below(&g, &t, ALPI_GRAPH_ROOT);
             assert_int_equal(count, g.node_count);

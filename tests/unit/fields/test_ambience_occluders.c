@@ -90,7 +90,7 @@ static uint32_t count_stale(const air *v, double x, double reach, bool inside)
         double p[3];
         alpi_anchor_place(v->ambience, at, p);
         const bool near = fabs(p[0] - x) <= reach && fabs(p[1]) <= reach && fabs(p[2]) <= reach;
-        count += at->state != ALPI_ANCHOR_FREE && at->stale_light && near == inside;
+        count += at->state != ALPI_ANCHOR_FREE && at->stale_light != 0 && near == inside;
     }
     return count;
 }
@@ -104,7 +104,7 @@ TEST(only_anchors_near_spheres_that_change_are_relit)
     sample_all(&v);
     ASSERT_OK(context, alp_ambience_sampler_set_occluders(v.sampler, before, 2));
     for (uint32_t i = 0; i < v.ambience->anchor_end; i++) {
-        v.ambience->anchors[i].stale_light = false;
+        v.ambience->anchors[i].stale_light = 0;
     }
     ASSERT_OK(context, alp_ambience_sampler_set_occluders(v.sampler, before, 2));
     assert_int_equal(count_stale(&v, 0.0, 1e9, true), 0); // nothing changed

@@ -117,6 +117,55 @@ TEST(an_even_sky_is_exact)
     close_live(&l);
 }
 
+/// ∫ L Y00 of what a sky sends.
+static double integrate_sky(const alp_scene *scene, const alp_lighting_options *options)
+{
+    enum { ROWS = 512 };
+    alpi_lighting *lighting = NULL;
+    double sum = 0.0;
+    ASSERT_OK(scene->context, alpi_lighting_create(scene, options, &lighting));
+    for (int i = 0; i < 2 * ROWS * ROWS; i++) {
+        const double step = FIELD_PI / ROWS;
+        const double theta = (i / (2 * ROWS) + 0.5) * step, phi = (i % (2 * ROWS) + 0.5) * step;
+        const vec3 d = {(float)(sin(theta) * cos(phi)), (float)cos(theta),
+                        (float)(sin(theta) * sin(phi))};
+        sum += ALP_SH_Y0 * (double)alpi_lighting_escaped(lighting, d).x * sin(theta) * step * step;
+    }
+    alpi_lighting_destroy(scene->context, lighting);
+    return sum;
+}
+
+/// A dim sky with one bright pixel, which holds most of its light: rays are aimed at it.
+TEST(a_bright_spot_of_the_sky_is_found)
+{
+    enum { WIDTH = 32, HEIGHT = 16 };
+    const alp_image_info info = {WIDTH, HEIGHT, 3, ALP_COMPONENT_FLOAT};
+    alp_image *image = NULL;
+    alp_ambience_options o = alp_ambience_options_default();
+    alp_ambience_sampler_options s = alp_ambience_sampler_options_default();
+    ASSERT_OK(context, alp_image_create(context, info, &image));
+    float *pixels = image->pixels;
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) {
+        pixels[i] = i / 3 == 4 * WIDTH + 9 ? 1000.0f : 0.5f;
+    }
+    o.centre[0] = 0.37; // no anchor lies on a speck
+    s.lighting.sky.kind = ALP_SKY_IMAGE;
+    s.lighting.sky.image = image;
+    live l = open_live(field_specks(context), &o, &s);
+    const double p[3] = {0.3, -0.2, 0.4}, exact = integrate_sky(l.scene, &s.lighting);
+    for (int i = 0; i < 2; i++) { // of the first lighting, and of another
+        ASSERT_OK(context, alp_ambience_sampler_warm(l.sampler, &l.camera, 0.0, 1));
+        const alp_ambience_snapshot *now = alp_ambience_begin_read(l.ambience);
+        alp_sh9 light;
+        alp_ambience_coefficients(now, p, &light);
+        alp_ambience_end_read(l.ambience, now);
+        ASSERT_NEAR(light.c[0][0], exact, 0.02 * exact);
+        ASSERT_OK(context, alp_ambience_sampler_set_lighting(l.sampler, &s.lighting));
+    }
+    close_live(&l);
+    alp_image_destroy(image);
+}
+
 static alp_ambience_sampler_options sunny(float azimuth)
 {
     alp_ambience_sampler_options s = alp_ambience_sampler_options_default();
