@@ -8,7 +8,7 @@
 // A step takes light from each cell to its six neighbours. Seen from the centre of a cell, the
 // neighbour along axis d has five faces: the far one and four at its sides. Each takes the flux
 //
-//     Φ = Δω max(0, I(ω_face)) (1 − opacity(ω_face)),     Δω the solid angle of the face
+//     Φ = Δω max(0, I(ω_face)) (1 − B(−ω_face)),     Δω the solid angle of the face
 //
 // and gives it to the neighbour as a cosine lobe. Clamping at 0 adds light behind lobes, so each
 // cell's 30 fluxes are scaled to have the sum 4π p0. With that a step keeps all light.
@@ -47,10 +47,12 @@ typedef struct alpi_lpv_grid {
     uint32_t size[3];
     double cell;       // metres
     int64_t corner[3]; // of cell 0, 0, 0, in cells from the origin
-    // [z][y][channel × 4 + term][x]. `light` travels next: scaled for the step. `sum` is what
-    // readers see.
+    // [z][y][channel × 4 + term][x]. `light` travels next: scaled for the step, and p × the cosine
+    // `aside`. `sum` is what readers see.
     float *injected, *light, *next, *sum;
-    float *faces; // [z][y][axis × 4 + term][x] opacity of low faces, then [axis × 3 + channel]
+    // [z][y][axis × 4 + term][x] of low faces: the share 1 − B(−ω) = q0 + q·ω of light along ω that
+    // passes; then [axis × 3 + channel] their albedo
+    float *faces;
     // [z + 1][y + 1][x + 1][NODE_TERMS]: merged views, and the view that is being added
     float *nodes, *view;
     int64_t node_corner[3]; // `corner` when the nodes were filled

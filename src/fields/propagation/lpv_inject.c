@@ -317,7 +317,7 @@ typedef struct face_loop {
     float opacity;
 } face_loop;
 
-/// Mean of the four nodes of the low faces of a row of cells across one axis.
+/// Openness of the low faces of a row of cells across one axis, from the mean of their four nodes.
 static void find_row(const alpi_lpv_grid *g, float opacity, uint32_t y, uint32_t z, int axis)
 {
     enum { N = ALPI_LPV_NODE_TERMS };
@@ -335,7 +335,8 @@ static void find_row(const alpi_lpv_grid *g, float opacity, uint32_t y, uint32_t
             sum[t] = at[t] + at[b + t] + at[c + t] + at[b + c + t];
         }
         for (size_t t = 0; t < ALPI_LPV_TERMS; t++) {
-            terms[t * n + x] = 0.25f * opacity * sum[t];
+            // A surface stops light that travels against its normal: openness 1 − B(−ω).
+            terms[t * n + x] = t == 0 ? 1.0f - 0.25f * opacity * sum[t] : 0.25f * opacity * sum[t];
         }
         for (size_t k = 0; k < 3; k++) {
             albedo[k * n + x] = sum[0] > 0.0f ? sum[ALPI_LPV_TERMS + k] / sum[0] : 0.0f;

@@ -63,39 +63,43 @@ alp_lpv_surfels alpi_surfels_view(const alpi_surfels *s)
                              .radii = s->radii};
 }
 
-/// Bounds of each object, and half their diagonal.
-alp_result alpi_find_object_radii(const alp_scene *scene, float **radii)
+/// First surface of the object of surface `s`, of which surface s − 1 has the first surface `last`.
+static uint32_t first_of_object(const alp_scene *scene, uint32_t s, uint32_t last)
 {
-    alp_context *context = scene->context;
-    *radii = ALPI_NEW(context, float, scene->surface_count);
-    vec3 *low = ALPI_NEW(context, vec3, scene->surface_count);
-    vec3 *high = ALPI_NEW(context, vec3, scene->surface_count);
-    if (*radii == NULL || low == NULL || high == NULL) {
-        alpi_release(context, *radii);
-        alpi_release(context, low);
-        alpi_release(context, high);
-        *radii = NULL;
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
+    const alpi_surface *a = &scene->surfaces[s], *b = &scene->surfaces[last];
+    return s > 0 && a->node == b->node && a->instance == b->instance ? last : s;
+}
+
+static void find_radii(const alp_scene *scene, vec3 (*bounds)[2], float *radii)
+{
     for (uint32_t s = 0, first = 0; s < scene->surface_count; s++) {
-        const alpi_surface *a = &scene->surfaces[s], *b = &scene->surfaces[first];
-        first = s == 0 || a->node != b->node || a->instance != b->instance ? s : first;
-        low[s] = (vec3){INFINITY, INFINITY, INFINITY};
-        high[s] = vec3_scale(low[s], -1.0f);
+        const alpi_surface *a = &scene->surfaces[s];
+        first = first_of_object(scene, s, first);
+        if (first == s) {
+            bounds[s][0] = (vec3){INFINITY, INFINITY, INFINITY};
+            bounds[s][1] = vec3_scale(bounds[s][0], -1.0f);
+        }
         for (uint32_t v = 0; v < a->vertex_count; v++) {
             const vec3 p = vec3_load(scene->positions[a->first_vertex + v]);
-            low[first] = vec3_min(low[first], p);
-            high[first] = vec3_max(high[first], p);
+            bounds[first][0] = vec3_min(bounds[first][0], p);
+            bounds[first][1] = vec3_max(bounds[first][1], p);
         }
-        (*radii)[s] = (float)first; // floats hold the index of 16 million surfaces
     }
-    for (uint32_t s = 0; s < scene->surface_count; s++) {
-        const uint32_t first = (uint32_t)(*radii)[s];
-        (*radii)[s] = 0.5f * vec3_length(vec3_sub(high[first], low[first]));
+    for (uint32_t s = 0, first = 0; s < scene->surface_count; s++) {
+        first = first_of_object(scene, s, first);
+        radii[s] = 0.5f * vec3_length(vec3_sub(bounds[first][1], bounds[first][0]));
     }
-    alpi_release(context, low);
-    alpi_release(context, high);
-    return ALP_OK;
+}
+
+alp_result alpi_find_object_radii(const alp_scene *scene, float **radii)
+{
+    vec3(*bounds)[2] = alpi_allocate(scene->context, scene->surface_count, sizeof *bounds);
+    *radii = bounds != NULL ? ALPI_NEW(scene->context, float, scene->surface_count) : NULL;
+    if (*radii != NULL) {
+        find_radii(scene, bounds, *radii);
+    }
+    alpi_release(scene->context, bounds);
+    return *radii != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
 }
 
 // --- views ---------------------------------------------------------------------------------------
