@@ -105,17 +105,21 @@ static void move_along(const float from[3], const float n[3], double distance, d
     }
 }
 
-/// Light that fades along the normal comes through the surface from behind. The change over a cell
-/// along the normal against the light itself: 1 where it grows or stays, down to 0.
+/// Light that fades along the normal comes from the surface itself or through it. Its share that
+/// counts: 1 + cos, where cos < 0 is that of the angle between the light and its change over a cell
+/// along the normal. Small changes count less, or noise would damp even light.
 static float find_damping(const float here[ALPI_LPV_TERMS], const float low[ALPI_LPV_TERMS],
                           const float high[ALPI_LPV_TERMS])
 {
-    float product = 0.0f, squares = 0.0f;
+    const float small = 0.3f; // of the light, a cell
+    float product = 0.0f, light = 0.0f, change = 0.0f;
     for (int t = 0; t < ALPI_LPV_TERMS; t++) {
-        product += here[t] * (high[t] - low[t]);
-        squares += here[t] * here[t];
+        const float d = high[t] - low[t];
+        product += here[t] * d;
+        light += here[t] * here[t];
+        change += d * d;
     }
-    const float share = squares > 0.0f ? 1.0f + product / squares : 1.0f;
+    const float share = light > 0.0f ? 1.0f + product / (sqrtf(light * change) + small * light) : 1.0f;
     return share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share);
 }
 
