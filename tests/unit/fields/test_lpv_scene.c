@@ -453,8 +453,9 @@ TEST(even_light_reads_as_it_is)
     alp_lpv_destroy(lpv);
 }
 
-/// Radiance of light that travels one way comes from where it was sent: L(ω) = p0 − p·ω.
-TEST(radiance_comes_from_its_source)
+/// Light that travels one way comes from where it was sent: L(ω) = p0 − p·ω. Its E on a surface
+/// that faces that way is π p0 + 2π/3 |p|.
+TEST(light_comes_from_its_source)
 {
     alp_lpv *lpv = open_volume(10, 0.5, 1);
     alpi_lpv_grid *g = &lpv->grids[0];
@@ -468,6 +469,12 @@ TEST(radiance_comes_from_its_source)
     alp_lpv_radiance(lpv, 2, p, d, l);
     ASSERT_NEAR((double)l[0][1], 1.5, 1e-5); // light that travels up comes from below
     ASSERT_NEAR((double)l[1][1], 0.5, 1e-5);
+    alp_field *field = NULL;
+    ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
+    alp_field_irradiance(field, 2, p, d, l);
+    ASSERT_NEAR((double)l[0][1], FIELD_PI * (1.0 + 1.0 / 3.0), 1e-5);
+    ASSERT_NEAR((double)l[1][1], FIELD_PI * (1.0 - 1.0 / 3.0), 1e-5);
+    alp_field_destroy(field);
     alp_lpv_destroy(lpv);
 }
 
