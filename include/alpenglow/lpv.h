@@ -106,8 +106,9 @@ typedef struct alp_lpv_surfels {
 #define ALP_LPV_ALL_CASCADES UINT32_MAX
 /// Injects light: each surfel is a virtual point light half a cell above its surface.
 /// @param cascade the grid that the map was made for, 0 the finest. Its light enters that grid and
-///        coarser ones. Each grid takes from a map what no finer map holds: the part beyond the
-///        next finer grid. ALP_LPV_ALL_CASCADES: the map holds all light of its lamp.
+///        coarser ones. Where a grid ends its map fades, and the next map takes over. The last cell
+///        of the coarsest of several grids fades too, so that nothing jumps when grids move.
+///        ALP_LPV_ALL_CASCADES: the map holds all light of its lamp.
 /// @return ALP_OK; INVALID_ARGUMENT (no flux, or no such cascade)
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade,
                                                    const alp_lpv_surfels *surfels);

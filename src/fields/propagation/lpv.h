@@ -6,6 +6,8 @@
 #include "base/vec.h"
 #include "fields/propagation/lpv_grid.h"
 
+#include <math.h>
+
 struct alp_lpv {
     alp_context *context;
     alp_lpv_options options;
@@ -21,6 +23,28 @@ struct alp_lpv {
 
 /// Centre of grid `cascade` before it is rounded to whole cells, in metres.
 void alpi_lpv_ideal_centre(const alp_lpv *lpv, uint32_t cascade, double centre[3]);
+
+/// Where grids give way to coarser ones: a share is 1 inside of a grid and 0 a cell before its
+/// border. It follows the eye itself, not the grid that moves by whole cells behind it, so that
+/// nothing jumps when the grid moves.
+typedef struct alpi_lpv_fades {
+    uint32_t count;                                                          // of grids
+    double centre[ALPI_LPV_CASCADES_MOST][3], cells[ALPI_LPV_CASCADES_MOST]; // metres; per metre
+    double half[3], slope[3]; // cells, and the share's change a cell
+} alpi_lpv_fades;
+/// @param border share of half a grid, (0, 1], over which it fades
+alpi_lpv_fades alpi_lpv_find_fades(const alp_lpv *lpv, double border);
+
+static inline double alpi_lpv_share(const alpi_lpv_fades *f, uint32_t cascade, const double p[3])
+{
+    double least = 1.0;
+    for (int k = 0; k < 3; k++) {
+        const double away = fabs(p[k] - f->centre[cascade][k]) * f->cells[cascade];
+        const double share = (f->half[k] - away) * f->slope[k];
+        least = share < least ? share : least;
+    }
+    return least > 0.0 ? least : 0.0;
+}
 
 /// Opacity of faces from that of nodes.
 alp_result alpi_lpv_find_faces(alp_lpv *lpv);

@@ -10,8 +10,9 @@
 /// A surface is read this many cells above it: beyond its own cell's half, which may lie in the
 /// wall.
 static const double LIFT = 0.5;
-/// Cells at the border of a grid in which it gives way to the next one.
-static const double BORDER = 4.0;
+/// Share of half a grid in which it gives way to the next one. A finer grid lacks the light from
+/// beyond it, and a slow change while the eye moves is not seen.
+static const double BORDER = 0.8;
 enum { GLOSS_STEPS = 4 };
 
 /// Sum of intensities at a point, divided by 1.5 s²: radiance L(ω) = p0 + p·ω of light that
@@ -23,31 +24,29 @@ typedef struct grid_place {
     float weight;
 } grid_place;
 
-/// Share of a grid at a point: 1 inside, and down to 0 a cell before its border. It follows the
-/// eye itself, not the grid that moves by whole cells behind it.
-static double grid_share(const alp_lpv *lpv, uint32_t cascade, const double p[3])
+alpi_lpv_fades alpi_lpv_find_fades(const alp_lpv *lpv, double border)
 {
-    const alpi_lpv_grid *g = &lpv->grids[cascade];
-    double centre[3], least = 1.0;
-    alpi_lpv_ideal_centre(lpv, cascade, centre);
+    alpi_lpv_fades f = {.count = lpv->options.cascades};
     for (int k = 0; k < 3; k++) {
-        const double half = 0.5 * (double)g->size[k] - 1.0;
-        const double border = fmin(BORDER, half);
-        const double left = half - fabs(p[k] - centre[k]) / g->cell;
-        least = fmin(least, border > 0.0 ? left / border : 0.0);
+        f.half[k] = 0.5 * (double)lpv->options.size[k] - 1.0;
+        f.slope[k] = 1.0 / (border * fmax(f.half[k], 0.5)); // of 1 or 2 cells no share is left
     }
-    return fmax(least, 0.0);
+    for (uint32_t c = 0; c < f.count; c++) {
+        f.cells[c] = 1.0 / lpv->grids[c].cell;
+        alpi_lpv_ideal_centre(lpv, c, f.centre[c]);
+    }
+    return f;
 }
 
 /// The grids that hold a point and their weights, the finest first; the coarsest takes the rest.
-static uint32_t find_grids(const alp_lpv *lpv, const double p[3],
+static uint32_t find_grids(const alp_lpv *lpv, const alpi_lpv_fades *fades, const double p[3],
                            grid_place places[ALPI_LPV_CASCADES_MOST])
 {
     double left = 1.0;
     uint32_t count = 0;
-    for (uint32_t c = 0; c < lpv->options.cascades && left > 0.0; c++) {
-        const bool last = c + 1 == lpv->options.cascades;
-        const double weight = last ? left : left * grid_share(lpv, c, p);
+    for (uint32_t c = 0; c < fades->count && left > 0.0; c++) {
+        const bool last = c + 1 == fades->count;
+        const double weight = last ? left : left * alpi_lpv_share(fades, c, p);
         if (weight > 0.0) {
             places[count++] = (grid_place){&lpv->grids[c], (float)weight};
         }
@@ -86,10 +85,11 @@ static void add_terms(const alpi_lpv_grid *g, const double p[3], float weight, l
     }
 }
 
-static void read_terms(const alp_lpv *lpv, const double p[3], light_terms terms)
+static void read_terms(const alp_lpv *lpv, const alpi_lpv_fades *fades, const double p[3],
+                       light_terms terms)
 {
     grid_place places[ALPI_LPV_CASCADES_MOST];
-    const uint32_t count = find_grids(lpv, p, places);
+    const uint32_t count = find_grids(lpv, fades, p, places);
     memset(terms, 0, sizeof(light_terms));
     for (uint32_t i = 0; i < count; i++) {
         add_terms(places[i].grid, p, places[i].weight, terms);
@@ -119,7 +119,8 @@ static float find_damping(const float here[ALPI_LPV_TERMS], const float low[ALPI
         light += here[t] * here[t];
         change += d * d;
     }
-    const float share = light > 0.0f ? 1.0f + product / (sqrtf(light * change) + small * light) : 1.0f;
+    const float share =
+        light > 0.0f ? 1.0f + product / (sqrtf(light * change) + small * light) : 1.0f;
     return share < 0.0f ? 0.0f : (share > 1.0f ? 1.0f : share);
 }
 
@@ -132,12 +133,13 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
                        const float (*normals)[3], float (*out)[3])
 {
     const alp_lpv *lpv = ((const lpv_field *)field)->lpv;
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
     for (uint32_t i = 0; i < count; i++) {
         const float *n = normals[i];
         grid_place places[ALPI_LPV_CASCADES_MOST];
         double p[3];
         move_along(positions[i], n, 0.0, p);
-        const uint32_t grids = find_grids(lpv, p, places);
+        const uint32_t grids = find_grids(lpv, &fades, p, places);
         memset(out[i], 0, sizeof out[i]);
         for (uint32_t g = 0; g < grids; g++) {
             const double cell = places[g].grid->cell;
@@ -186,19 +188,23 @@ alp_result alp_field_create_lpv(const alp_lpv *lpv, alp_field **field)
 void alp_lpv_radiance(const alp_lpv *lpv, uint32_t count, const float (*positions)[3],
                       const float (*directions)[3], float (*radiance)[3])
 {
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
     for (uint32_t i = 0; i < count; i++) {
         const float *d = directions[i];
         float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
         grid_place places[ALPI_LPV_CASCADES_MOST];
         double p[3];
         move_along(positions[i], d, 0.0, p);
-        (void)find_grids(lpv, p, places);
-        const double cell = places[0].grid->cell;
+        const uint32_t grids = find_grids(lpv, &fades, p, places);
+        double cell = 0.0; // blended, or steps would jump where a grid begins
+        for (uint32_t g = 0; g < grids; g++) {
+            cell += (double)places[g].weight * places[g].grid->cell;
+        }
         for (int step = 1; step <= GLOSS_STEPS; step++) {
             light_terms t;
             const float weight = 1.0f / (float)(step * step);
             move_along(positions[i], d, step * cell, p);
-            read_terms(lpv, p, t);
+            read_terms(lpv, &fades, p, t);
             for (int k = 0; k < 3; k++) {
                 const float along = t[k][1] * d[0] + t[k][2] * d[1] + t[k][3] * d[2];
                 sum[k] += weight * fmaxf(t[k][0] - along, 0.0f);
@@ -214,12 +220,13 @@ void alp_lpv_radiance(const alp_lpv *lpv, uint32_t count, const float (*position
 void alp_lpv_fluence(const alp_lpv *lpv, uint32_t count, const float (*positions)[3],
                      float (*fluence)[3])
 {
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
     const float sphere = 4.0f * (float)ALPI_PI, nowhere[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < count; i++) {
         light_terms t;
         double p[3];
         move_along(positions[i], nowhere, 0.0, p);
-        read_terms(lpv, p, t);
+        read_terms(lpv, &fades, p, t);
         for (int k = 0; k < 3; k++) {
             fluence[i][k] = sphere * fmaxf(t[k][0], 0.0f);
         }

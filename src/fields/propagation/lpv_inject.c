@@ -13,6 +13,8 @@ enum { GRAIN = 4096, SLABS = 8 };
 enum { OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1 }; // in place of a place
 /// A virtual light lies this many cells above its surface.
 static const double ABOVE = 0.5;
+/// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
+static const double BORDER = 0.15;
 
 typedef struct injection {
     alp_lpv *lpv;
@@ -21,6 +23,7 @@ typedef struct injection {
     uint32_t index;   // of the grid
     uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
     bool blockers;
+    alpi_lpv_fades fades;
 } injection;
 
 // --- what is usable ------------------------------------------------------------------------------
@@ -59,25 +62,32 @@ static void place_in(const alpi_lpv_grid *g, const float position[3], double at[
     }
 }
 
-static bool is_inside(const alpi_lpv_grid *g, const float position[3])
+/// Share that the coarsest of several grids takes: its last cell fades, or light would jump where
+/// the grid moves on. alp_lpv_options_for_scene leaves that cell empty. A single grid takes all.
+static double find_last_share(const alpi_lpv_fades *f, const double p[3])
 {
-    double at[3];
-    bool inside = true;
-    place_in(g, position, at);
-    for (int k = 0; k < 3; k++) {
-        inside = inside && at[k] >= 0.0 && at[k] < (double)g->size[k];
+    const uint32_t last = f->count - 1;
+    double least = 1.0;
+    for (int k = 0; k < 3 && last > 0; k++) {
+        const double away = fabs(p[k] - f->centre[last][k]) * f->cells[last];
+        least = f->half[k] >= 1.0 ? fmin(least, f->half[k] + 0.5 - away) : least;
     }
-    return inside;
+    return fmax(least, 0.0);
 }
 
-/// Whether a map of one cascade provides the light of this place: the part of its grid that the
-/// next finer grid does not hold.
-static bool is_of_map(const injection *in, const float position[3])
+/// Share of a surfel's light that a grid takes. Maps of cascades are blended as the grids are.
+static double find_weight(const injection *in, const float position[3])
 {
-    const alpi_lpv_grid *grids = in->lpv->grids;
-    const uint32_t c = in->cascade;
-    return c == ALP_LPV_ALL_CASCADES ||
-           (is_inside(&grids[c], position) && (c == 0 || !is_inside(&grids[c - 1], position)));
+    const double p[3] = {(double)position[0], (double)position[1], (double)position[2]};
+    const alpi_lpv_fades *f = &in->fades;
+    const bool all = in->cascade == ALP_LPV_ALL_CASCADES;
+    const uint32_t map = all ? in->index : in->cascade;
+    double finer = 1.0; // what finer maps leave
+    for (uint32_t c = 0; c < map; c++) {
+        finer *= 1.0 - alpi_lpv_share(f, c, p);
+    }
+    const double own = map + 1 == f->count ? find_last_share(f, p) : alpi_lpv_share(f, map, p);
+    return all ? 1.0 - finer * (1.0 - own) : finer * own;
 }
 
 static uint32_t find_place(const injection *in, uint32_t i)
@@ -89,9 +99,6 @@ static uint32_t find_place(const injection *in, uint32_t i)
     }
     const float radius = s->radii != NULL ? s->radii[i] : 0.0f;
     if (radius > 0.0f && 2.0 * (double)radius < g->cell) {
-        return OUTSIDE;
-    }
-    if (!in->blockers && !is_of_map(in, s->positions[i])) {
         return OUTSIDE;
     }
     double at[3];
@@ -133,10 +140,11 @@ static void add_light(const injection *in, uint32_t i, uint32_t place)
 {
     const alpi_lpv_grid *g = in->grid;
     const uint32_t x = place % g->size[0];
+    const float share = (float)(find_weight(in, in->surfels->positions[i]) / ALPI_PI);
     float *cell = g->injected + (size_t)(place / g->size[0]) * ALPI_LPV_ROWS * g->size[0] + x;
-    for (uint32_t channel = 0; channel < 3; channel++) {
+    for (uint32_t channel = 0; channel < 3 && share > 0.0f; channel++) {
         add_lobe(cell + (size_t)channel * ALPI_LPV_TERMS * g->size[0], g->size[0],
-                 in->surfels->flux[i][channel] / (float)ALPI_PI, in->surfels->normals[i]);
+                 in->surfels->flux[i][channel] * share, in->surfels->normals[i]);
     }
 }
 
@@ -160,7 +168,8 @@ static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t w
     const injection *in = user;
     const size_t places =
         in->blockers ? alpi_lpv_nodes(in->grid->size) : alpi_lpv_cells(in->grid->size);
-    const uint32_t first = (uint32_t)(places * begin / SLABS), last = (uint32_t)(places * end / SLABS);
+    const uint32_t first = (uint32_t)(places * begin / SLABS),
+                   last = (uint32_t)(places * end / SLABS);
     for (uint32_t i = 0; i < in->surfels->count; i++) {
         const uint32_t place = in->lpv->places[i];
         if (place >= first && place < last) {
@@ -185,6 +194,7 @@ static alp_result inject(injection *in)
 {
     alp_lpv *lpv = in->lpv;
     const uint32_t count = in->surfels->count, finest = in->index;
+    in->fades = alpi_lpv_find_fades(lpv, BORDER);
     if (count > lpv->place_limit) {
         ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->places, &lpv->place_limit, count,
                           sizeof *lpv->places));
