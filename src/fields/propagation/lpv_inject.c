@@ -11,8 +11,9 @@
 
 enum { GRAIN = 4096, SLABS = 8 };
 enum { OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1 }; // in place of a place
-/// A virtual light lies this many cells above its surface.
-static const double ABOVE = 0.5;
+/// A virtual light lies half a cell above its surface. Surfaces often lie at halves of cells, and
+/// there rounding would choose between two cells: a thousandth more makes the choice.
+static const double ABOVE = 0.5, BEYOND = 0.001;
 /// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
 static const double BORDER = 0.15;
 
@@ -106,7 +107,8 @@ static uint32_t find_place(const injection *in, uint32_t i)
     place_in(g, s->positions[i], at);
     for (int k = 2; k >= 0; k--) { // nodes lie at corners of cells
         const double end = (double)g->size[k] + (in->blockers ? 1.0 : 0.0);
-        at[k] += in->blockers ? 0.5 : ABOVE * (double)s->normals[i][k];
+        const double n = (double)s->normals[i][k];
+        at[k] += in->blockers ? 0.5 + BEYOND * n : (ABOVE + BEYOND) * n;
         if (!(at[k] >= 0.0) || at[k] >= end) {
             return OUTSIDE;
         }
