@@ -379,6 +379,36 @@ TEST(last_blockers_stay)
     }
 }
 
+/// Surfaces that lie halfway between cells or nodes choose one side, whatever rounding does.
+TEST(surfaces_at_halves_of_cells_choose_a_side)
+{
+    for (int d = 0; d < 6; d++) {
+        const float side = d % 2 == 0 ? 1.0f : -1.0f;
+        const int axis = d / 2;
+        alp_lpv *lpv = open_volume(6, ALP_LPV_ACCURATE, 2, 1);
+        const alpi_lpv_grid *g = &lpv->grids[0];
+        dense.count = 0;
+        cover(axis, 0.5f, side, 2.0f, 0.5f);
+        for (uint32_t i = 0; i < dense.count; i++) {
+            dense.positions[i][axis] += 1e-6f * (float)((int)(i % 3) - 1);
+            add_light(lpv, vec3_load(dense.positions[i]), vec3_load(dense.normals[i]), 1.0f);
+        }
+        block_all(lpv);
+        const size_t steps[3] = {1, 7, 49};
+        uint32_t cells = 0, nodes = 0;
+        for (size_t x = 0; x < 6; x++) { // layers along the axis, in its middle
+            const size_t cell[3] = {axis == 0 ? x : 3, axis == 1 ? x : 3, axis == 2 ? x : 3};
+            const size_t row = (cell[2] * 6 + cell[1]) * ALPI_LPV_ROWS;
+            cells += g->injected[row * 6 + cell[0]] > 0.0f;
+            const size_t node = 3 * (1 + 7 + 49) + (x - 3) * steps[axis];
+            nodes += g->nodes[node * ALPI_LPV_NODE_TERMS] > 0.0f;
+        }
+        assert_int_equal(cells, 1);
+        assert_int_equal(nodes, 1);
+        alp_lpv_destroy(lpv);
+    }
+}
+
 // --- light that blockers throw back --------------------------------------------------------------
 
 /// A closed box of 8³ cells with one light, after so many steps.
