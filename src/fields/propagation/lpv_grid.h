@@ -15,7 +15,9 @@
 //
 // Surfaces are held by another grid, whose nodes lie at the corners of cells. A node holds the
 // opacity B(ω) = Σ A/s² (1/4 + n·ω/2) of the surfaces round it: a surface of normal n stops light
-// that travels against n. The four nodes of a face are averaged for light that passes there.
+// that travels against n. The four nodes of a face are averaged for light that passes there. From
+// the same terms ACCURATE reads v = Σ A/s² n and B(ω) = v·ω + (Σ A/s² − |v|)/2, which is exact for
+// surfaces of one orientation and stops no light that passes along them.
 #ifndef ALPI_FIELDS_LPV_GRID_H
 #define ALPI_FIELDS_LPV_GRID_H
 

@@ -15,7 +15,8 @@ enum { TWIN_ROWS = 12, TWIN_NODE = 7 };
 /// How light is read at faces and given on, as in alpi_lpv_scheme.
 typedef struct twin_scheme {
     double far, along, aside, give_along, give_aside, opacity;
-    bool clamps; // false: the operator is linear, and some light is negative
+    bool clamps;   // false: the operator is linear, and some light is negative
+    bool by_angle; // blockers of one orientation stop by the cosine, the rest by half
 } twin_scheme;
 
 typedef struct twin {
@@ -31,9 +32,9 @@ static inline twin_scheme twin_scheme_of(alp_lpv_mode mode)
 {
     const double along = 2.0 / sqrt(5.0), aside = 1.0 / sqrt(5.0);
     if (mode == ALP_LPV_CONFORMANCE) {
-        return (twin_scheme){1.0, along, aside, 0.0, 1.0, 1.0, true};
+        return (twin_scheme){1.0, along, aside, 0.0, 1.0, 1.0, true, false};
     }
-    return (twin_scheme){1.0, along, aside, along, aside, 1.6, true};
+    return (twin_scheme){1.0, along, aside, along, aside, 1.6, true, true};
 }
 
 static inline size_t twin_cells(const twin *t)
@@ -88,7 +89,12 @@ static inline double twin_opacity(const twin *t, const int cell[3], int axis, in
     for (int k = 0; k < 3; k++) {
         albedo[k] = sum[0] > 0.0 ? sum[4 + k] / sum[0] : 0.0;
     }
-    const double met = sum[0] - sum[1] * w[0] - sum[2] * w[1] - sum[3] * w[2];
+    double met = sum[0] - sum[1] * w[0] - sum[2] * w[1] - sum[3] * w[2];
+    if (t->scheme.by_angle) {
+        const double area = 4.0 * sum[0], v[3] = {2.0 * sum[1], 2.0 * sum[2], 2.0 * sum[3]};
+        const double one_way = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        met = fmax((area - one_way) / 2.0, 0.0) - v[0] * w[0] - v[1] * w[1] - v[2] * w[2];
+    }
     return fmin(fmax(t->scheme.opacity * met, 0.0), 1.0);
 }
 

@@ -157,12 +157,12 @@ static double leak(alp_lpv_mode mode, float at, float thick, double angle, uint3
     return behind / before;
 }
 
-/// The bound is 5 % for walls along the grid. Nodes of walls at an angle cover faces in part: a
-/// wall at 45 degrees lets more through.
+/// At most 5 %. Nodes of walls at an angle cover faces in part, and walls at 45 degrees let most
+/// through.
 TEST(a_wall_of_one_cell_keeps_light_out)
 {
     static const double angles[5] = {0.0, 0.2, 0.4, 0.5, FIELD_PI / 4.0};
-    static const double most[5] = {.001, .03, .05, .055, .085};
+    static const double most[5] = {.001, .01, .015, .02, .035};
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
         for (int a = 0; a < 5; a++) {
             double worst = 0.0;
@@ -218,7 +218,7 @@ TEST(a_wall_stops_light_that_meets_its_front)
 }
 
 /// E before a wall that shines, over that without blockers. Light that diffuses back into the wall
-/// is lost there, and so is a fifth of what travels along it, a step.
+/// is lost there. Two bands of conformance also stop some of what travels along it.
 TEST(a_wall_darkens_its_front_little)
 {
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
@@ -245,7 +245,8 @@ TEST(a_wall_darkens_its_front_little)
                       e[1][3] / e[0][3]);
         assert_true(e[1][0] >= 0.5 * e[0][0]);
         for (int i = 1; i < 4; i++) {
-            assert_true(e[1][i] >= 0.7 * e[0][i] && e[1][i] <= e[0][i]);
+            const double least = mode == ALP_LPV_ACCURATE ? 0.8 : 0.7;
+            assert_true(e[1][i] >= least * e[0][i] && e[1][i] <= e[0][i]);
         }
     }
 }
@@ -451,7 +452,7 @@ static double mean_of_walls(const alp_lpv *lpv)
 TEST(a_box_obeys_the_geometric_series)
 {
     static const float albedo[4] = {0.0f, 0.25f, 0.5f, 0.75f};
-    static const double series[2][4] = {{1.0, .98, .96, .93}, {1.0, .96, .91, .78}};
+    static const double series[2][4] = {{1.0, .99, .99, .99}, {1.0, .96, .91, .78}};
     for (int mode = 0; mode < 2; mode++) {
         for (int wall = 0; wall < 2; wall++) {
             double first = 0.0;
@@ -463,8 +464,8 @@ TEST(a_box_obeys_the_geometric_series)
                 print_message("%s, light %s, albedo %.2f: %.3f of E, %.3f of the series\n",
                               mode_names[mode], wall != 0 ? "at a wall" : "inside",
                               (double)albedo[i], share, share / first);
-                assert_true(share > 0.5 && share <= 1.0);
-                assert_true(share / first >= series[mode][i] && share / first <= 1.0 + 1e-6);
+                assert_true(share > (mode == ALP_LPV_ACCURATE ? 0.7 : 0.5) && share <= 1.0);
+                assert_true(share / first >= series[mode][i] && share / first <= 1.06);
                 alp_lpv_destroy(lpv);
             }
         }
@@ -475,7 +476,7 @@ TEST(a_box_obeys_the_geometric_series)
 TEST(blockers_make_no_light)
 {
     static const float albedo[2] = {0.5f, 1.0f};
-    static const double left[2][ALP_LPV_MODE_COUNT] = {{0.0, 0.0, 0.0}, {.9, .75, .74}};
+    static const double left[2][ALP_LPV_MODE_COUNT] = {{0.0, 0.0, 0.0}, {.99, .75, .74}};
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
         for (int wall = 0; wall < 2; wall++) {
             for (int i = 0; i < 2; i++) {
