@@ -6,6 +6,8 @@
 #include "base/random.h"
 #include "fields/propagation/lpv.h"
 
+#include <alpenglow/probes.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -22,7 +22,4 @@ struct alp_lpv {
 /// Centre of grid `cascade` before it is rounded to whole cells, in metres.
 void alpi_lpv_ideal_centre(const alp_lpv *lpv, uint32_t cascade, double centre[3]);
 
-/// Opacity of faces from that of nodes.
-alp_result alpi_lpv_find_faces(alp_lpv *lpv);
-
 #endif
