@@ -4,7 +4,7 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas, peers, sh, fields or ambience; without it all seven. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers, sh, fields, ambience or lpv; without it all eight. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -99,6 +99,15 @@ ambience() { # the plot goes to docs/pictures
     scripts/make_tables.py captions <<<"$tables"
 }
 
+lpv() { # the plot goes to docs/pictures
+    head_of lpv "Light propagation"
+    printf '\n## Speed, reach and error\n\n    alpenglow bench lpv\n\n'
+    "$(dirname "$command")/alpenglow-bench" lpv --markdown --pictures docs/pictures |
+        scripts/make_tables.py captions
+    printf '\n'
+    scripts/make_tables.py text 'lpv reach'
+}
+
 write_page() {
     local page=$1 new
     new=$(mktemp)
@@ -117,10 +126,10 @@ write_page() {
     esac
 }
 
-for page in "${@:-accuracy speed atlas peers sh fields ambience}"; do
+for page in "${@:-accuracy speed atlas peers sh fields ambience lpv}"; do
     for one in $page; do
         case $one in
-            accuracy | speed | atlas | peers | sh | fields | ambience) write_page "$one" ;;
+            accuracy | speed | atlas | peers | sh | fields | ambience | lpv) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac
     done

@@ -109,6 +109,7 @@ alpi_map_view alpi_sun_view(const alp_scene *scene, vec3 travel, const double lo
 {
     const vec3 bounds = vec3_sub(scene->bounds_max, scene->bounds_min);
     const vec3 middle = vec3_mad(scene->bounds_min, 0.5f, bounds);
+    alpi_map_view v = {.parallel = true, .axis = travel, .size = size};
     vec3 axes[2];
     double centre[2], half[2];
     vec3_frame(travel, &axes[0], &axes[1]);
@@ -121,11 +122,11 @@ alpi_map_view alpi_sun_view(const alp_scene *scene, vec3 travel, const double lo
         }
         // Texels stay where they are in the world when the box moves.
         const double texel = 2.0 * half[a] / size;
-        centre[a] = texel * floor(centre[a] / texel + 0.5);
+        v.corner[a] = (int64_t)floor(centre[a] / texel + 0.5);
+        centre[a] = texel * (double)v.corner[a];
     }
     // The rectangle lies before the scene.
     const float back = vec3_dot(middle, travel) - 0.5f * vec3_length(bounds) * 1.01f;
-    alpi_map_view v = {.parallel = true, .axis = travel, .size = size};
     v.origin = vec3_scale(travel, back);
     v.origin = vec3_mad(v.origin, (float)centre[0], axes[0]);
     v.origin = vec3_mad(v.origin, (float)centre[1], axes[1]);
@@ -166,11 +167,12 @@ typedef struct texel_ray {
     float area; // parallel: m² across the ray; else its solid angle
 } texel_ray;
 
-/// The ray of a texel, at a place within it that is the same in every frame.
+/// The ray of a texel, at a place within it that stays when the map moves by whole texels.
 static texel_ray aim_texel(const view_job *job, uint32_t x, uint32_t y)
 {
     const alpi_map_view *v = job->view;
-    const uint32_t key = alpi_random_key(job->in->seed, (uint64_t)y << 32 | x, STREAM_TEXEL);
+    const uint64_t column = (uint64_t)(v->corner[0] + x), row = (uint64_t)(v->corner[1] + y);
+    const uint32_t key = alpi_random_key(job->in->seed, row << 32 ^ column, STREAM_TEXEL);
     const vec2 u = alpi_sample_2d(key, 0);
     const float side = 2.0f / (float)v->size;
     const float across = ((float)x + u.x) * side - 1.0f, upward = ((float)y + u.y) * side - 1.0f;
