@@ -63,7 +63,7 @@ static int read_camera(const char *text, const double origin[3], alp_render_opti
 /// Methods and models of the choices of --with, in their order.
 static const struct {
     alp_render_method method;
-    int model; // of FIELD: an ambient model, PROBES or AMBIENCE
+    int model; // of FIELD: an ambient model, PROBES, AMBIENCE or LPV
 } methods[] = {{ALP_RENDER_AO, 0},
                {ALP_RENDER_ALBEDO, 0},
                {ALP_RENDER_REFERENCE, 0},
@@ -76,27 +76,22 @@ static const struct {
                {ALP_RENDER_FIELD, ALP_AMBIENT_CUBE},
                {ALP_RENDER_FIELD, ALP_AMBIENT_ENVIRONMENT},
                {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1}};
-enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE };
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 2}};
+enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE, LPV };
 
 static int model_of(const command_line *a)
 {
     return methods[a->values[OPTION_WITH].choice].model;
 }
 
-static bool shows_probes(const command_line *a, const alp_render_options *o)
+static field_model field_of(const command_line *a, const alp_render_options *o)
 {
-    return o->method == ALP_RENDER_FIELD && model_of(a) == PROBES;
-}
-
-static bool shows_ambience(const command_line *a, const alp_render_options *o)
-{
-    return o->method == ALP_RENDER_FIELD && model_of(a) == AMBIENCE;
-}
-
-static int check_flight(const command_line *a, const alp_render_options *o)
-{
-    return shows_ambience(a, o) ? flight_run_check(a) : flight_run_refuse(a);
+    const int model = o->method == ALP_RENDER_FIELD ? model_of(a) : -1;
+    return model == PROBES     ? FIELD_PROBES
+           : model == AMBIENCE ? FIELD_AMBIENCE
+           : model == LPV      ? FIELD_LPV
+                               : FIELD_OTHER;
 }
 
 /// Refuses options that a method does not use.
@@ -143,7 +138,8 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--ao-falloff", OPTION_AO_FALLOFF, AO},
                    {"--ao-cone", OPTION_AO_CONE, AO},
                    {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
-    const unsigned own = 1u << o->method | (shows_probes(a, o) ? (unsigned)PROBES_ONLY : 0u);
+    const unsigned own =
+        1u << o->method | (field_of(a, o) == FIELD_PROBES ? (unsigned)PROBES_ONLY : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].methods & own) == 0 && a->values[read_by[i].id].given) {
             return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
@@ -207,8 +203,9 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
                            output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "no method; give --with reference, radiosity, "
-                                           "lightmap, probes, ambience, ao, albedo or another");
+        return usage_error(COMMAND_RENDER,
+                           "no method; give --with reference, radiosity, "
+                           "lightmap, probes, ambience, lpv, ao, albedo or another");
     }
     o->method = methods[a->values[OPTION_WITH].choice].method;
     o->without_direct = a->values[OPTION_DIRECT].choice == 0;
@@ -224,8 +221,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
-    code = code == EXIT_DONE ? check_flight(a, o) : code;
-    code = code == EXIT_DONE ? probe_file_check(a) : code;
+    code = code == EXIT_DONE ? field_check(a, field_of(a, o)) : code;
     code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
@@ -314,14 +310,30 @@ static int make_ambience(session *s, const command_line *a, alp_render_options *
     return code;
 }
 
+/// Propagates light through grids that follow the camera of the picture.
+static int make_lpv(session *s, const command_line *a, alp_render_options *o, field_source *source)
+{
+    if (a->values[OPTION_SKY].given) {
+        session_warn(s, "no-sky", "--sky",
+                     "light propagation holds no sky, which is background only; --with probes "
+                     "holds its light");
+    }
+    const alp_result result = alp_render_find_camera(s->scene, o, &o->camera);
+    return result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
+                            : session_end(s, result);
+}
+
 /// Makes the field of --with.
 static int make_field(session *s, const command_line *a, alp_render_options *o,
                       field_source *source)
 {
-    if (shows_ambience(a, o)) {
+    if (field_of(a, o) == FIELD_AMBIENCE) {
         return make_ambience(s, a, o, source);
     }
-    if (!shows_probes(a, o)) {
+    if (field_of(a, o) == FIELD_LPV) {
+        return make_lpv(s, a, o, source);
+    }
+    if (field_of(a, o) != FIELD_PROBES) {
         const alp_ambient_model model = (alp_ambient_model)model_of(a);
         const alp_result result = field_fit(s, a, model, &o->lighting, source);
         return result == ALP_OK ? EXIT_DONE : session_end(s, result);

@@ -121,6 +121,13 @@ typedef struct alp_render_options {
 } alp_render_options;
 ALP_API alp_render_options alp_render_options_default(void);
 
+/// The camera that alp_render takes with these options: `camera`, or the one of `camera_index`.
+/// @param options  NULL = defaults   @param camera out
+/// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails); CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_render_find_camera(const alp_scene *scene,
+                                                        const alp_render_options *options,
+                                                        alp_camera *camera);
+
 /// Renders linear radiance (AO: accessibility) as float RGBA. Alpha is 0 if no surface is visible.
 /// Without a sky, panes of REFERENCE, RADIOSITY and LIGHTMAP in front of nothing have the alpha
 /// that they absorb. With a sky, alpha of these three is 1 everywhere.

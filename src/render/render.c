@@ -131,15 +131,26 @@ static alp_result check_lit(const render_job *job)
                                       : ALP_OK;
 }
 
+alp_result alp_render_find_camera(const alp_scene *scene, const alp_render_options *options,
+                                  alp_camera *camera)
+{
+    if (scene == NULL || camera == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    const alp_render_options o = options ? *options : alp_render_options_default();
+    if (o.camera.vertical_fov != 0.0f) {
+        *camera = o.camera;
+        return ALP_OK;
+    }
+    return alpi_camera_choose(scene, o.camera_index, o.progress, o.progress_user, camera);
+}
+
 /// The camera that was given, or that of the scene.
 static alp_result place_camera(render_job *job)
 {
     const alp_render_options *o = &job->options;
-    alp_camera camera = o->camera;
-    if (camera.vertical_fov == 0.0f) {
-        ALP_TRY(alpi_camera_choose(job->scene, o->camera_index, o->progress, o->progress_user,
-                                   &camera));
-    }
+    alp_camera camera;
+    ALP_TRY(alp_render_find_camera(job->scene, o, &camera));
     ALP_TRY(alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view));
     if (o->method == ALP_RENDER_HEMICUBE) {
         const float size = vec3_length(vec3_sub(job->scene->bounds_max, job->scene->bounds_min));

@@ -21,6 +21,7 @@ extern const option_part option_part_picture;
 extern const option_part option_part_light;
 extern const option_part option_part_space;
 extern const option_part option_part_ambience;
+extern const option_part option_part_lpv;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_later;
