@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
+#include "cameras.h"
 #include "fields.h"
 #include "film.h"
 #include "interrupt.h"
@@ -12,52 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAMERA_NUMBERS = 7 };
-
 static bool read_numbers(const char *text, double *numbers, int count)
 {
     const char *end = number_parse_list(text, numbers, count);
     return end != NULL && *end == '\0';
-}
-
-/// @param origin of the scene in the world of its file
-static bool place_camera(const double n[CAMERA_NUMBERS], const double origin[3], alp_camera *camera)
-{
-    double axis[3], length = 0.0;
-    for (int i = 0; i < 3; i++) {
-        camera->position[i] = (float)(n[i] - origin[i]);
-        camera->target[i] = (float)(n[i + 3] - origin[i]);
-        axis[i] = n[i + 3] - n[i];
-        length += axis[i] * axis[i];
-    }
-    length = sqrt(length);
-    // Looking straight up or down, +Y cannot be up.
-    bool vertical = fabs(axis[1]) > 0.9999 * length;
-    camera->up[0] = 0.0f;
-    camera->up[1] = vertical ? 0.0f : 1.0f;
-    camera->up[2] = vertical ? -1.0f : 0.0f;
-    camera->vertical_fov = (float)(n[6] * (M_PI / 180.0));
-    return length > 0.0 && n[6] >= 1e-3 && n[6] <= 179.0;
-}
-
-static int read_camera(const char *text, const double origin[3], alp_render_options *o)
-{
-    uint64_t index = 0;
-    double numbers[CAMERA_NUMBERS];
-    number_result result = number_parse_whole(text, &index);
-    if (strcmp(text, "auto") == 0) {
-        o->camera_index = UINT32_MAX;
-    } else if (result == NUMBER_OK && index < UINT32_MAX) {
-        o->camera_index = (uint32_t)index;
-    } else if (result != NUMBER_NONE || !read_numbers(text, numbers, CAMERA_NUMBERS) ||
-               !place_camera(numbers, origin, &o->camera)) {
-        return usage_error(COMMAND_RENDER,
-                           "--camera: '%s' is not a camera; give a number from 0, auto, or "
-                           "PX,PY,PZ,TX,TY,TZ,VFOV: position and another point as target in "
-                           "metres, and VFOV 0.001 to 179 degrees",
-                           text);
-    }
-    return EXIT_DONE;
 }
 
 /// Methods and models of the choices of --with, in their order.
@@ -217,7 +176,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
         code = resolution_read(a, &o->width, &o->height);
     }
     if (code == EXIT_DONE) {
-        code = read_camera(a->values[OPTION_CAMERA].text, (const double[3]){0.0, 0.0, 0.0}, o);
+        code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, o);
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
@@ -228,26 +187,12 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     return code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
 }
 
-/// Places a camera given by position in the scene that was loaded. One given by number must exist.
-static int find_camera(const session *s, const command_line *a, alp_render_options *o)
+/// Places the camera and the object in the scene that was loaded.
+static int place(const session *s, const command_line *a, alp_render_options *o)
 {
     const alp_scene_info info = alp_scene_get_info(s->scene);
-    int code = read_camera(a->values[OPTION_CAMERA].text, info.origin, o);
-    code = code == EXIT_DONE ? read_object(a, info.origin, o) : code;
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    uint32_t cameras = info.cameras;
-    bool numbered = o->camera.vertical_fov <= 0.0f && o->camera_index != UINT32_MAX;
-    if (a->values[OPTION_CAMERA].given && numbered && o->camera_index >= cameras) {
-        char text[160];
-        snprintf(text, sizeof text,
-                 "--camera %u: the scene has %u camera%s, counted from 0; auto is a view of "
-                 "everything",
-                 o->camera_index, cameras, cameras == 1 ? "" : "s");
-        return failure(text);
-    }
-    return EXIT_DONE;
+    const int code = camera_find(s, a, o);
+    return code == EXIT_DONE ? read_object(a, info.origin, o) : code;
 }
 
 /// @param film options of development; returns the exposure that was used
@@ -411,7 +356,7 @@ int command_render(const command_line *a)
     alp_image *sky;
     code = lighting_open(&s, a, &options.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
-        code = find_camera(&s, a, &options);
+        code = place(&s, a, &options);
     }
     if (code == EXIT_DONE) {
         code = render(&s, a, &options);
