@@ -3,6 +3,7 @@
 
 #include "lighting.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -90,6 +91,18 @@ static alp_lpv_scene_options make_frame(const command_line *a, const alp_lightin
 
 // --- the volume ----------------------------------------------------------------------------------
 
+/// Whether the file or the options have a light. The sky of the options does not count.
+static bool has_light(const session *s, const alp_lighting_options *lighting)
+{
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    bool lit = info.lights > 0 || lighting->lamp_count > 0 || lighting->sun.illuminance > 0.0f;
+    for (uint32_t i = 0; i < info.surfaces && !lit; i++) {
+        const alp_surface_info surface = alp_scene_get_surface(s->scene, i);
+        lit = surface.emission[0] + surface.emission[1] + surface.emission[2] > 0.0f;
+    }
+    return lit;
+}
+
 /// States the memory of a large volume before it is made.
 static void state_memory(const session *s, const alp_lpv_options *o)
 {
@@ -99,29 +112,69 @@ static void state_memory(const session *s, const alp_lpv_options *o)
     }
 }
 
-/// Moves the grids with the camera.
-static alp_result follow(lpv_run *run)
+/// Who looks into the grids that follow.
+typedef struct viewer {
+    double eye[3];     // metres: the camera, or the nearest place in the bounds of the scene
+    double forward[3]; // unit
+} viewer;
+
+static viewer find_viewer(const session *s, const alp_camera *camera)
 {
-    double eye[3], forward[3];
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    double length = 0.0;
+    viewer v;
     for (int k = 0; k < 3; k++) {
-        eye[k] = (double)run->camera.position[k];
-        forward[k] = (double)run->camera.target[k] - eye[k];
+        const double at = (double)camera->position[k];
+        v.forward[k] = (double)camera->target[k] - at;
+        v.eye[k] = fmin(fmax(at, (double)info.bounds_min[k]), (double)info.bounds_max[k]);
+        length += v.forward[k] * v.forward[k];
     }
-    return alp_lpv_follow(run->lpv, eye, forward);
+    for (int k = 0; k < 3; k++) {
+        v.forward[k] /= sqrt(length);
+    }
+    return v;
+}
+
+/// Cell with which the coarsest grid holds the scene from where the viewer is.
+static double fit_cell(const session *s, const viewer *v, uint32_t grid, uint32_t cascades)
+{
+    const double ahead = 0.5; // alp_lpv_follow: centre - eye, in halves of the grid's side
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    double half = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double above = (double)info.bounds_max[k] - v->eye[k];
+        const double below = v->eye[k] - (double)info.bounds_min[k];
+        half = fmax(half, above / (1.0 + ahead * v->forward[k]));
+        half = fmax(half, below / (1.0 - ahead * v->forward[k]));
+    }
+    // Centres are rounded to cells: 3 cells make room on both sides.
+    const double cells = grid > 3 ? (double)grid - 3.0 : 1.0;
+    return ldexp(2.0 * half / cells, 1 - (int)cascades);
 }
 
 int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *lighting,
                  const alp_camera *camera, lpv_run *run)
 {
     *run = (lpv_run){.session = s, .options = make_options(s, a), .frame = make_frame(a, lighting)};
-    state_memory(s, &run->options);
-    alp_result result = alp_lpv_create(s->context, &run->options, &run->lpv);
+    alp_lpv_options *o = &run->options;
+    const bool follows = camera != NULL && o->cascades > 1;
+    viewer v = {0};
+    if (!has_light(s, lighting)) {
+        return failure("nothing lights the scene; give --sun, --lamp or --spot (light propagation "
+                       "holds no sky)");
+    }
     if (camera != NULL) {
         run->camera = *camera;
         run->frame.camera = &run->camera;
+        v = find_viewer(s, camera);
     }
-    if (result == ALP_OK && camera != NULL && run->options.cascades > 1) {
-        result = follow(run);
+    if (follows && a->values[OPTION_CELL].choice >= 0) {
+        o->cell = fit_cell(s, &v, o->size[0], o->cascades);
+    }
+    state_memory(s, o);
+    alp_result result = alp_lpv_create(s->context, o, &run->lpv);
+    if (result == ALP_OK && follows) {
+        result = alp_lpv_follow(run->lpv, v.eye, v.forward);
     }
     return session_end(s, result);
 }

@@ -2,7 +2,7 @@
 // Rows of the table of options: light propagation volumes.
 #include "options/option_parts.h"
 
-#define VOLUME_COMMANDS (IN_SAMPLE | IN_RENDER)
+#define VOLUME_COMMANDS (IN_SAMPLE | IN_RENDER | IN_LPV)
 
 static const option rows[] = {
     {.id = OPTION_GRID,
@@ -17,6 +17,18 @@ static const option rows[] = {
      .initial = "32",
      .help = "Cells along each side of a grid. Memory grows with the cube of N, to some 40 GB for "
              "512."},
+    {.id = OPTION_CELL,
+     .commands = IN_LPV,
+     .group = GROUP_VOLUME,
+     .kind = KIND_REAL,
+     .name = "--cell",
+     .value = "M|auto",
+     .choices = "auto",
+     .minimum = 1e-4,
+     .maximum = 1e6,
+     .unit = "metres",
+     .initial = "auto",
+     .help = "Side of a cell of the finest grid. auto: the coarsest grid holds the scene."},
     {.id = OPTION_CELL,
      .commands = IN_SAMPLE | IN_RENDER,
      .group = GROUP_VOLUME,
@@ -42,7 +54,7 @@ static const option rows[] = {
      .unit = "grids",
      .initial = "1",
      .help = "Grids inside each other. The cells of each are twice as large as those of the one "
-             "before. In a picture, several grids follow the camera."},
+             "before. Several grids follow the camera of a picture, as far as the scene reaches."},
     {.id = OPTION_ITERATIONS,
      .commands = VOLUME_COMMANDS,
      .group = GROUP_VOLUME,
@@ -79,6 +91,77 @@ static const option rows[] = {
              "views: those that lamps and the camera of a picture see, as in a renderer on a "
              "GPU.\n"
              "off: none. Light goes through walls and is reflected once."},
+    {.id = OPTION_BOUNCES,
+     .commands = IN_LPV,
+     .group = GROUP_LIGHT,
+     .kind = KIND_WHOLE,
+     .name = "--bounces",
+     .value = "1|converge",
+     .minimum = 1,
+     .maximum = 1,
+     .choices = "converge",
+     .initial = "converge",
+     .help = "Number of reflections of light.\n"
+             "1: lamps light surfaces, and these the rest.\n"
+             "converge: blockers reflect light again, as often as it reaches them."},
+    {.id = OPTION_FRAMES,
+     .commands = IN_LPV,
+     .group = GROUP_WHAT,
+     .kind = KIND_WHOLE,
+     .name = "--frames",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 1000000,
+     .initial = "60",
+     .help = "Frames to light and to measure."},
+    {.id = OPTION_SUN_TURN,
+     .commands = IN_LPV,
+     .group = GROUP_WHAT,
+     .kind = KIND_REAL,
+     .name = "--sun-turn",
+     .value = "DEG",
+     .minimum = -360,
+     .maximum = 360,
+     .unit = "degrees a frame",
+     .initial = "0.1",
+     .help = "Turn of --sun between frames, towards growing AZ. Suns of the scene stand still."},
+    {.id = OPTION_JSON,
+     .commands = IN_LPV,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--json",
+     .value = "FILE",
+     .help = "Write options and figures as JSON. - prints it instead of the table."},
+    {.id = OPTION_PICTURES,
+     .commands = IN_LPV,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--pictures",
+     .value = "DIR",
+     .help = "Folder for pictures of the last frame, made if missing.\n"
+             "slice_x.png, slice_y.png, slice_z.png: mean fluence in the cells of the middle layer "
+             "along each axis. +Y is up; from above, +Z is down. slice_x_1.png and so on: coarser "
+             "grids.\n"
+             "view.png: the view of --camera. Left: lit by the volume. Right: the reference."},
+    {.id = OPTION_RESOLUTION,
+     .commands = IN_LPV,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--resolution",
+     .value = "WxH",
+     .initial = "320x180",
+     .help = "Size of each half of view.png in pixels, each side 1 to 16384."},
+    {.id = OPTION_REFERENCE_SAMPLES,
+     .commands = IN_LPV,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_WHOLE,
+     .name = "--reference-samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 65536,
+     .unit = "paths per pixel",
+     .initial = "64",
+     .help = "Paths of the reference in view.png, rounded up to a multiple of 16."},
 };
 
 const option_part option_part_lpv = {rows, sizeof rows / sizeof *rows};

@@ -34,7 +34,7 @@ static const option rows[] = {
              "ambient light, fitted to the scene's light (see sample). Light straight from "
              "lamps and suns is added at each pixel, with shadows (--direct)."},
     {.id = OPTION_CAMERA,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_LPV,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--camera",
