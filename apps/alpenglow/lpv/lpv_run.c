@@ -84,6 +84,7 @@ static alp_lpv_scene_options make_frame(const command_line *a, const alp_lightin
 {
     alp_lpv_scene_options o = alp_lpv_scene_options_default();
     o.lighting = *lighting;
+    o.lighting.sky.kind = ALP_SKY_NONE;
     o.points = a->values[OPTION_BLOCKERS].choice == BLOCKERS_POINTS ? o.points : 0;
     o.seed = a->values[OPTION_SEED].whole;
     return o;
@@ -115,7 +116,7 @@ static void state_memory(const session *s, const alp_lpv_options *o)
 /// Who looks into the grids that follow.
 typedef struct viewer {
     double eye[3];     // metres: the camera, or the nearest place in the bounds of the scene
-    double forward[3]; // unit
+    double forward[3]; // unit, or 0
 } viewer;
 
 static viewer find_viewer(const session *s, const alp_camera *camera)
@@ -130,7 +131,7 @@ static viewer find_viewer(const session *s, const alp_camera *camera)
         length += v.forward[k] * v.forward[k];
     }
     for (int k = 0; k < 3; k++) {
-        v.forward[k] /= sqrt(length);
+        v.forward[k] *= length > 0.0 ? 1.0 / sqrt(length) : 0.0;
     }
     return v;
 }
@@ -173,6 +174,9 @@ int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *
     }
     state_memory(s, o);
     alp_result result = alp_lpv_create(s->context, o, &run->lpv);
+    if (result == ALP_OK) { // warns of lamps in walls
+        result = alp_scene_examine(s->scene, &run->frame.lighting, session_progress, s);
+    }
     if (result == ALP_OK && follows) {
         result = alp_lpv_follow(run->lpv, v.eye, v.forward);
     }
