@@ -264,8 +264,12 @@ static int make_lpv(session *s, const command_line *a, alp_render_options *o, fi
                      "holds its light");
     }
     const alp_result result = alp_render_find_camera(s->scene, o, &o->camera);
-    return result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
-                            : session_end(s, result);
+    const int code = result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
+                                      : session_end(s, result);
+    o->lpv = source->lpv != NULL ? source->lpv->lpv : NULL;
+    o->gloss = a->values[OPTION_GLOSS].given;
+    o->scattering = (float)a->values[OPTION_MEDIA].real;
+    return code;
 }
 
 /// Makes the field of --with.

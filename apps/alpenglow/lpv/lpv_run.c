@@ -48,7 +48,9 @@ int lpv_run_refuse(const command_line *a)
                {"--cascades", OPTION_CASCADES},
                {"--iterations", OPTION_ITERATIONS},
                {"--mode", OPTION_MODE},
-               {"--blockers", OPTION_BLOCKERS}};
+               {"--blockers", OPTION_BLOCKERS},
+               {"--gloss", OPTION_GLOSS},
+               {"--media", OPTION_MEDIA}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
         if (a->values[own[i].id].given) {
             return usage_error(a->command, "%s: does not apply to --with %s", own[i].name,

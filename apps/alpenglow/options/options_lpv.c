@@ -91,6 +91,26 @@ static const option rows[] = {
              "views: those that lamps and the camera of a picture see, as in a renderer on a "
              "GPU.\n"
              "off: none. Light goes through walls and is reflected once."},
+    {.id = OPTION_GLOSS,
+     .commands = IN_RENDER,
+     .group = GROUP_VOLUME,
+     .kind = KIND_FLAG,
+     .name = "--gloss",
+     .help =
+         "Surfaces mirror the light of the volume: 4 % of it head-on, metals their base colour, "
+         "all of it at grazing angles."},
+    {.id = OPTION_MEDIA,
+     .commands = IN_RENDER,
+     .group = GROUP_VOLUME,
+     .kind = KIND_REAL,
+     .name = "--media",
+     .value = "S",
+     .minimum = 0,
+     .maximum = 1e6,
+     .unit = "1/metre",
+     .initial = "0",
+     .help = "Mist in the bounds of the scene, of scattering coefficient S. It shows shafts of "
+             "light from lamps and suns (--direct), and the light of the volume."},
     {.id = OPTION_BOUNCES,
      .commands = IN_LPV,
      .group = GROUP_LIGHT,
