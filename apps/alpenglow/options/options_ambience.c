@@ -84,7 +84,7 @@ static const option rows[] = {
      .help = "The sun makes a whole day in this time. --sun is its place at noon, when the flight "
              "begins. --sky clear follows it."},
     {.id = OPTION_CELL,
-     .commands = FLIGHT_COMMANDS,
+     .commands = IN_AMBIENCE,
      .group = GROUP_FLIGHT,
      .kind = KIND_REAL,
      .name = "--cell",
