@@ -217,19 +217,22 @@ alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfe
     return inject(&in);
 }
 
-/// Adds a view to the merged ones. CONFORMANCE: the maximum of each term, as the paper does.
-/// Else the view with more surface has the node: views show the same surfaces.
+/// Adds a view to the merged ones: views show the same surfaces. A view without surface at a node
+/// does not count there. CONFORMANCE: the maximum of each term, as the paper does. Else the view
+/// with more surface has the node.
 static void merge_view(alpi_lpv_grid *g, bool by_term)
 {
     enum { N = ALPI_LPV_NODE_TERMS };
     const size_t nodes = alpi_lpv_nodes(g->size);
     for (size_t i = 0; i < nodes; i++) {
         float *into = g->nodes + i * N, *from = g->view + i * N;
-        if (!by_term && from[0] > into[0]) {
+        const bool both = into[0] > 0.0f && from[0] > 0.0f;
+        if (by_term && both) {
+            for (int t = 0; t < N; t++) {
+                into[t] = fmaxf(into[t], from[t]);
+            }
+        } else if (from[0] > into[0]) {
             memcpy(into, from, N * sizeof *into);
-        }
-        for (int t = 0; t < N && by_term; t++) {
-            into[t] = fmaxf(into[t], from[t]);
         }
     }
     memset(g->view, 0, nodes * N * sizeof *g->view);

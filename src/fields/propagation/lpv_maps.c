@@ -109,9 +109,9 @@ alpi_map_view alpi_sun_view(const alp_scene *scene, vec3 travel, const double lo
 {
     const vec3 bounds = vec3_sub(scene->bounds_max, scene->bounds_min);
     const vec3 middle = vec3_mad(scene->bounds_min, 0.5f, bounds);
-    alpi_map_view v = {.parallel = true, .axis = travel, .size = size};
     vec3 axes[2];
     double centre[2], half[2];
+    uint32_t shift[2];
     vec3_frame(travel, &axes[0], &axes[1]);
     for (int a = 0; a < 2; a++) {
         const float along[3] = {axes[a].x, axes[a].y, axes[a].z};
@@ -120,18 +120,22 @@ alpi_map_view alpi_sun_view(const alp_scene *scene, vec3 travel, const double lo
             centre[a] += 0.5 * (low[k] + high[k]) * (double)along[k];
             half[a] += 0.5 * (high[k] - low[k]) * fabs((double)along[k]);
         }
-        // Texels stay where they are in the world when the box moves.
-        const double texel = 2.0 * half[a] / size;
-        v.corner[a] = (int64_t)floor(centre[a] / texel + 0.5);
-        centre[a] = texel * (double)v.corner[a];
+        // Texels stay where they are in the world when the box moves. The box is covered wherever
+        // its centre lies within one.
+        const double texel = 2.0 * half[a] / (size - 1), steps = floor(centre[a] / texel + 0.5);
+        centre[a] = texel * steps;
+        half[a] += 0.5 * texel;
+        shift[a] = (uint32_t)(int64_t)fmod(steps, 0x1p32);
     }
     // The rectangle lies before the scene.
     const float back = vec3_dot(middle, travel) - 0.5f * vec3_length(bounds) * 1.01f;
+    alpi_map_view v = {.parallel = true, .axis = travel, .size = size};
     v.origin = vec3_scale(travel, back);
     v.origin = vec3_mad(v.origin, (float)centre[0], axes[0]);
     v.origin = vec3_mad(v.origin, (float)centre[1], axes[1]);
     v.right = vec3_scale(axes[0], (float)half[0]);
     v.up = vec3_scale(axes[1], (float)half[1]);
+    memcpy(v.shift, shift, sizeof v.shift);
     return v;
 }
 
@@ -167,12 +171,12 @@ typedef struct texel_ray {
     float area; // parallel: m² across the ray; else its solid angle
 } texel_ray;
 
-/// The ray of a texel, at a place within it that stays when the map moves by whole texels.
+/// The ray of a texel. Its place within it is the same in every frame, also where the map moved.
 static texel_ray aim_texel(const view_job *job, uint32_t x, uint32_t y)
 {
     const alpi_map_view *v = job->view;
-    const uint64_t column = (uint64_t)(v->corner[0] + x), row = (uint64_t)(v->corner[1] + y);
-    const uint32_t key = alpi_random_key(job->in->seed, row << 32 ^ column, STREAM_TEXEL);
+    const uint64_t texel = (uint64_t)(y + v->shift[1]) << 32 | (x + v->shift[0]);
+    const uint32_t key = alpi_random_key(job->in->seed, texel, STREAM_TEXEL);
     const vec2 u = alpi_sample_2d(key, 0);
     const float side = 2.0f / (float)v->size;
     const float across = ((float)x + u.x) * side - 1.0f, upward = ((float)y + u.y) * side - 1.0f;

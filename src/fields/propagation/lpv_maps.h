@@ -39,7 +39,7 @@ typedef struct alpi_map_view {
     vec3 origin;          // centre of the rectangle, or the eye
     vec3 axis, right, up; // axis unit; of a point, right and up are tangents of the half-angles
     uint32_t size;
-    int64_t corner[2]; // texel 0, 0 on the lattice of the world, for places within texels
+    uint32_t shift[2]; // added to x, y: the number of a texel that names its place in the world
 } alpi_map_view;
 
 /// A map of parallel light over a box of the world, its texels fixed to whole steps.

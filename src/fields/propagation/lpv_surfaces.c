@@ -25,6 +25,13 @@ static vec3 place_on(const vec3 c[3], vec2 u, float *b1, float *b2)
     return vec3_mad(p, *b2, c[2]);
 }
 
+/// Points of double-sided surfaces lie at the same places on both sides. They face one side and the
+/// other in turn over all triangles, for a triangle may have a single point.
+static vec2 sample_place(uint32_t key, uint32_t number, bool both)
+{
+    return alpi_sample_2d(key, both ? number / 2 : number);
+}
+
 static vec3 normal_at(const alp_scene *scene, uint32_t triangle, const vec3 c[3], float b1, float b2)
 {
     const vec3 flat = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
@@ -87,11 +94,10 @@ static alp_result place_blockers(void *user, uint32_t begin, uint32_t end, uint3
         vec3 c[3];
         float b1, b2;
         alpi_triangle_corners(scene, p->triangle, c);
-        vec3_store(s->positions[i], place_on(c, alpi_sample_2d(key, p->number), &b1, &b2));
-        const vec3 n = normal_at(scene, p->triangle, c, b1, b2);
-        // Points of a double-sided surface face one side and the other in turn.
         const bool both = alpi_surface_is_double_sided(scene, p->triangle);
-        vec3_store(s->normals[i], both && p->number % 2 == 1 ? vec3_scale(n, -1.0f) : n);
+        vec3_store(s->positions[i], place_on(c, sample_place(key, p->number, both), &b1, &b2));
+        const vec3 n = normal_at(scene, p->triangle, c, b1, b2);
+        vec3_store(s->normals[i], both && i % 2 == 1 ? vec3_scale(n, -1.0f) : n);
         vec3_store(s->albedo[i], alpi_surface_albedo(scene, p->triangle, b1, b2));
         s->areas[i] = alpi_surface_is_cut(scene, p->triangle, b1, b2)
                           ? 0.0f
@@ -143,9 +149,9 @@ static void shine(const point_job *job, uint32_t i)
     vec3 c[3];
     float b1, b2;
     alpi_triangle_corners(scene, p->triangle, c);
-    const vec3 position = place_on(c, alpi_sample_2d(key, p->number), &b1, &b2);
     const bool both = alpi_surface_is_double_sided(scene, p->triangle);
-    const bool back = both && p->number % 2 == 1;
+    const vec3 position = place_on(c, sample_place(key, p->number, both), &b1, &b2);
+    const bool back = both && i % 2 == 1;
     const vec3 flat = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
     const vec3 n = back ? vec3_scale(flat, -1.0f) : flat;
     // Area of the triangle over its share of points, twice where only half of them see a side.
