@@ -24,9 +24,10 @@ static alp_lpv_surfels draw_map(float height)
     const float area = FLOOR * FLOOR / TEXELS; // of the floor, in a texel
     const float across = area * sinf(height);  // of the map itself
     for (int i = 0; i < TEXELS; i++) {
-        positions[i][0] = FLOOR * (((float)(i % SIDE) + 0.5f) / SIDE - 0.5f);
+        const int column = i % SIDE, row = i / SIDE;
+        positions[i][0] = FLOOR * (((float)column + 0.5f) / SIDE - 0.5f);
         positions[i][1] = 0.0f;
-        positions[i][2] = FLOOR * (((float)(i / SIDE) + 0.5f) / SIDE - 0.5f);
+        positions[i][2] = FLOOR * (((float)row + 0.5f) / SIDE - 0.5f);
         normals[i][1] = 1.0f;
         areas[i] = area;
         for (int k = 0; k < 3; k++) {

@@ -27,7 +27,8 @@ static alp_lpv *make_volume(const alp_scene *scene, float radiance)
     const alp_lpv_options o = alp_lpv_options_for_scene(scene, 8, 1);
     ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
     alp_lpv_get_grid(lpv, 0, &g);
-    float *intensities = (float *)(uintptr_t)g.intensities; // of the volume, which may change
+    float *intensities; // of the volume, which may change
+    memcpy(&intensities, &g.intensities, sizeof intensities);
     const size_t rows = (size_t)g.size[1] * g.size[2] * 12;
     for (size_t i = 0; i < rows * g.size[0]; i++) {
         const bool mean = i / g.size[0] % 4 == 0;
