@@ -109,8 +109,10 @@ typedef struct alp_render_options {
                             ///< never finds lights without extent.
     const alp_field *field; ///< FIELD: made of this scene's light
     const alp_lpv *lpv; ///< FIELD: the volume of `gloss` and `scattering`; NULL (default) without
-    /// FIELD: surfaces mirror the light of `lpv`, default false: L = (1 − F) Ldiffuse + F
-    /// Lmirrored, F = F0 + (1 − F0)(1 − n·v)⁵, with F0 = .04, and the base colour of a metal.
+    /// FIELD: surfaces mirror the light of `lpv`; default false. v points to the camera, r is v
+    /// mirrored at the normal n, Lmirrored is alp_lpv_radiance along r, Schlick's F has F0 = .04,
+    /// or the base colour of a metal:
+    ///     L = Le + (1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
     bool gloss;
     /// FIELD: coefficient S [m⁻¹] ≥ 0 of a medium in the bounds of the scene, which scatters light
     /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`

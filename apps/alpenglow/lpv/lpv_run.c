@@ -138,7 +138,8 @@ static viewer find_viewer(const session *s, const alp_camera *camera)
     return v;
 }
 
-/// Cell with which the coarsest grid holds the scene from where the viewer is.
+/// Cell with which the coarsest grid holds the scene from where the viewer is; 1 m for a scene
+/// without size.
 static double fit_cell(const session *s, const viewer *v, uint32_t grid, uint32_t cascades)
 {
     const double ahead = 0.5; // alp_lpv_follow: centre - eye, in halves of the grid's side
@@ -152,7 +153,7 @@ static double fit_cell(const session *s, const viewer *v, uint32_t grid, uint32_
     }
     // Centres are rounded to cells: 3 cells make room on both sides.
     const double cells = grid > 3 ? (double)grid - 3.0 : 1.0;
-    return ldexp(2.0 * half / cells, 1 - (int)cascades);
+    return half > 0.0 ? ldexp(2.0 * half / cells, 1 - (int)cascades) : 1.0;
 }
 
 int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *lighting,

@@ -16,6 +16,11 @@ for options in "--blockers views --cascades 2" "--blockers off" "--mode conforma
     $render --with lpv --grid 16 $options -f -o object.exr || echo "exit $?"
     alpenglow compare lpv.exr object.exr --max-rmse 1e-3 >/dev/null 2>&1 || echo "$options differs"
 done
+for options in --gloss "--media 1" "--media 1 --lamp .28,.3,.28,9" "--media 1 --lamp .28,.3,.28,9 --direct off"; do
+    $render --with lpv --grid 16 $options -f -o object.exr || echo "exit $?"
+    alpenglow compare lpv.exr object.exr --max-rmse 1e-3 >/dev/null 2>&1 || echo "$options differs"
+done
+$render --with lpv --grid 16 --media 0 -f -o object.exr && cmp lpv.exr object.exr && echo "no medium, no difference"
 $render --with lpv --grid 16 --sky 1,1,1 -f -o object.exr
 $render --with reference --lamp .28,.3,.28,9 -o on.exr
 $render --with reference --lamp .28,.3,.28,9 --direct off -o off.exr

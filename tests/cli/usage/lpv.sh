@@ -45,5 +45,11 @@ for command in "render scene.glb -o out.png" "sample scene.glb --at points.csv";
     try $command --with probes --cell 1
     try $command --with reference --mode accurate
 done
+try render scene.glb -o out.png --with lpv --media -1
+try render scene.glb -o out.png --with lpv --media thick
+try render scene.glb -o out.png --with lpv --gloss 1
+try render scene.glb -o out.png --with probes --gloss
+try render scene.glb -o out.png --with reference --media 1
+try sample scene.glb --at points.csv --with lpv --media 1
 try sample scene.glb --at points.csv --with lpv --sky 1,1,1
 try sample scene.glb --at points.csv --with lpv --direct on
