@@ -352,6 +352,37 @@ TEST(even_light_is_read_exactly)
     alp_ambience_destroy(a);
 }
 
+/// Nine coefficients may give an E below 0, which no surface receives.
+TEST(irradiance_is_never_negative)
+{
+    const alp_ambience_options o = small_options();
+    alp_ambience *a = world_open(context, &o);
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}, {1.5f, 1.5f, 1.5f}}}; // E(−y) = −.649
+    const double low[3] = {-0.1, -0.1, -0.1}, high[3] = {0.1, 0.1, 0.1};
+    const double corners[4][3] = {{0.0}};
+    float cube[6][3], down[4][3], e[4][3];
+    alp_ambience_request request;
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+    ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    const alp_ambience_snapshot *s = alp_ambience_begin_read(a);
+    for (int way = 0; way < 6; way++) {
+        for (int i = 0; i < 4; i++) {
+            memset(down[i], 0, sizeof down[i]);
+            down[i][way / 2] = way % 2 == 0 ? 1.0f : -1.0f;
+        }
+        alp_ambience_patch(s, corners, (const float(*)[3])down, e);
+        alp_ambience_object_cube(s, low, high, cube);
+        assert_true(e[3][1] >= 0.0f && cube[way][1] >= 0.0f);
+        alp_ambience_irradiance(s, 4, corners, (const float(*)[3])down, e);
+        assert_true(e[3][1] >= 0.0f);
+    }
+    alp_ambience_end_read(a, s);
+    alp_ambience_destroy(a);
+}
+
 // --- life of an anchor ---------------------------------------------------------------------------
 
 static float lone_light(alp_ambience *a, double time)
