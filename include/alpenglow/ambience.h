@@ -67,8 +67,9 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_create(alp_context *context,
 ALP_API void alp_ambience_destroy(alp_ambience *ambience);
 
 /// Moves to a time: fades new light in and expired light out, prunes branches without light, and
-/// publishes a snapshot. Light that comes before time moves counts at once. If the first light of
-/// a volume comes later, all light fades in from black within 3.3 seconds.
+/// publishes a snapshot. Light that comes before time moves counts at once. So do answers that the
+/// first move of time takes, if readers had no light before. If the first light of a volume comes
+/// later, all light fades in from black within 3.3 seconds.
 /// @param time seconds, finite, not before the last
 /// @return ALP_OK; INVALID_ARGUMENT (nothing changes); OUT_OF_MEMORY (the old snapshot stays);
 ///         LIMIT (readers and fields hold all of 16 snapshots: the old one stays)

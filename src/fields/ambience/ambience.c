@@ -191,9 +191,11 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
                          time, a->time);
     }
     const double step = isnan(a->time) ? 0.0 : time - a->time;
+    const bool dark = !(alpi_ambience_published(a)->dawn > 0.0f);
     a->first_time = isnan(a->time) ? time : a->first_time;
-    a->time = time;
+    a->time = dark && !isnan(a->time) ? a->time : time; // no light is visible that could jump
     ALP_TRY(alpi_requests_collect(a));
+    a->time = time;
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
     ALP_TRY(alpi_ambience_compact(a));

@@ -104,11 +104,6 @@ static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
     return largest;
 }
 
-static const alp_ambience_snapshot *published(const alp_ambience *a)
-{
-    return a->snapshots.all[atomic_load(&a->snapshots.current)];
-}
-
 /// Before time moves, all light counts at once.
 static bool is_first(const alp_ambience *a)
 {
@@ -144,7 +139,7 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     if (at->slot != ALPI_NO_SLOT) {
         return find_difference(now, a->lights.light[at->slot]);
     }
-    const alp_ambience_snapshot *s = published(a);
+    const alp_ambience_snapshot *s = alpi_ambience_published(a);
     const float scale = s->dawn > 0.0f ? 1.0f / s->dawn : 0.0f; // all light dawns together
     double place[3];
     alpi_anchor_place(a, at, place);

@@ -207,6 +207,30 @@ TEST(first_light_dawns)
     }
 }
 
+/// The loop of a host: answers to the requests of one frame are taken in the next. Those of the
+/// first frame count at once if nothing was visible, and fade in if light was.
+TEST(answers_to_the_first_requests_count_at_once)
+{
+    const alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    const double place[3] = {0.3, 0.2, -0.4};
+    const alp_ambience_options o = small_options();
+    alp_ambience *looped = world_open(context, &o), *warmed = world_open(context, &o);
+    ASSERT_OK(context, alp_ambience_update(looped, 0.0));
+    ASSERT_OK(context, alp_ambience_update(warmed, 0.0));
+    (void)world_answer(looped, &camera, 20, -1e9, 0.0);
+    (void)world_answer(warmed, &camera, 20, -1e9, 0.0);
+    ASSERT_OK(context, alp_ambience_update(looped, FRAME));
+    ASSERT_OK(context, alp_ambience_update(warmed, 0.0));
+    const float warm = read_up(warmed, place);
+    assert_true(warm > 0.5f);
+    ASSERT_NEAR(read_up(looped, place), warm, 1e-6);
+    assert_true(world_answer(warmed, &camera, 200, -1e9, 0.0) > 100);
+    ASSERT_OK(context, alp_ambience_update(warmed, FRAME));
+    ASSERT_NEAR(read_up(warmed, place), warm, 0.01 * (double)warm);
+    alp_ambience_destroy(looped);
+    alp_ambience_destroy(warmed);
+}
+
 /// A camera that jumps to bright places: where no anchor is, light follows slowly.
 TEST(light_without_anchors_does_not_jump)
 {
