@@ -215,10 +215,10 @@ ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
 /// Moves the centre of the volume by .4 of the finest cell, unless it was updated before. Floors
 /// and walls often lie at whole metres, and anchors on surfaces count as solid. On a floor at y = 0
-/// the error was twice as large without it.
+/// the error was twice as large without it. A volume has one sampler at a time.
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
-///         lamp: the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer
-///         fails)
+///         lamp: the message says how many there are; the volume has a sampler); OUT_OF_MEMORY;
+///         UNSUPPORTED (the ray tracer fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);

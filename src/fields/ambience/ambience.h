@@ -98,6 +98,7 @@ struct alp_ambience {
     double rate;            // anchors per second that can be sampled, as far as was seen
     uint32_t taken;         // anchors sampled since the last update
     uint64_t hit_bytes;     // memory of kept hits
+    const alp_ambience_sampler *sampler;                            // NULL: none
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
 };
 

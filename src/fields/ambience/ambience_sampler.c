@@ -153,6 +153,10 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
     const alp_ambience_sampler_options o =
         options ? *options : alp_ambience_sampler_options_default();
     ALP_TRY(check_options(&o, scene));
+    if (ambience->sampler != NULL) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: the volume has a sampler; destroy it before the next");
+    }
     alp_ambience_sampler *s = ALPI_NEW(scene->context, alp_ambience_sampler, 1);
     if (s == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -165,7 +169,7 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         alp_ambience_sampler_destroy(s);
         return result;
     }
-    drop_all_hits(ambience);
+    ambience->sampler = s;
     ambience->drop_hits = drop_hits;
     fit_to_scene(ambience, scene);
     if (ambience->options.flat && ambience->options.height == NULL) {
@@ -186,6 +190,7 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
         s->ambience->options.height_user = NULL;
     }
     alp_context *context = s->scene->context;
+    s->ambience->sampler = NULL;
     drop_all_hits(s->ambience);
     clear_lighting(s);
     alpi_release(context, s->moments);

@@ -329,6 +329,24 @@ TEST(samplers_refuse_bad_options)
     alp_scene_destroy(scene);
 }
 
+/// A second one would share hits and ground with the first.
+TEST(a_volume_has_one_sampler_at_a_time)
+{
+    alp_ambience_options o = room_options(27.0, 2);
+    o.flat = true;
+    live l = open_live(test_load(context, "builtin:cornell"), &o, NULL);
+    alp_ambience_sampler *second = NULL;
+    (void)step_live(&l, 0.0, 10);
+    assert_int_equal(alp_ambience_sampler_create(l.ambience, l.scene, NULL, &second),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_null(second);
+    assert_true(l.ambience->options.height_user == l.sampler);
+    alp_ambience_sampler_destroy(l.sampler);
+    ASSERT_OK(context, alp_ambience_sampler_create(l.ambience, l.scene, NULL, &l.sampler));
+    assert_true(l.ambience->options.height_user == l.sampler);
+    close_live(&l);
+}
+
 // --- workers -------------------------------------------------------------------------------------
 
 typedef struct live_bits {
