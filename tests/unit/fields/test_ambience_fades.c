@@ -207,6 +207,32 @@ TEST(first_light_dawns)
     }
 }
 
+/// Both look-ups dawn alike. Under even light, each gives the dawn's share of it.
+TEST(all_look_ups_dawn)
+{
+    const alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    const double place[3] = {0.3, 0.2, -0.4};
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}}};
+    for (int lookup = 0; lookup < 2; lookup++) {
+        alp_ambience_options o = small_options();
+        o.lookup = (alp_ambience_lookup)lookup;
+        alp_ambience *a = world_open(context, &o);
+        ASSERT_OK(context, alp_ambience_update(a, 0.0));
+        ASSERT_OK(context, alp_ambience_update(a, 0.5));
+        for (int step = 0; step < 40; step++) {
+            alp_ambience_request request;
+            ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+            if (request.id != 0) {
+                ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+            }
+            ASSERT_OK(context, alp_ambience_update(a, 0.6 + 0.1 * step));
+            ASSERT_NEAR(read_up(a, place), ALPI_PI * 0.28209479 * fmin(0.03 * (step + 1), 1.0),
+                        1e-4);
+        }
+        alp_ambience_destroy(a);
+    }
+}
+
 /// The loop of a host: answers to the requests of one frame are taken in the next. Those of the
 /// first frame count at once if nothing was visible, and fade in if light was.
 TEST(answers_to_the_first_requests_count_at_once)
