@@ -261,7 +261,8 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_sample(alp_ambience_sampler *sampl
 /// of the first seconds fades in, and bounces arrive with renewals.
 /// @param time    as of alp_ambience_update; the first, or before it
 /// @param bounces times that all anchors are lit; 5 are enough for most scenes
-/// @return as alp_ambience_sample; INVALID_ARGUMENT also where time has moved
+/// @return as alp_ambience_sample; INVALID_ARGUMENT also if time has moved, or `time` is
+///         not that of the first update
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
                                                            const alp_ambience_camera *camera,
                                                            double time, uint32_t bounces);

@@ -489,8 +489,9 @@ alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
     alp_ambience *a = sampler->ambience;
     if (a->time > a->first_time || (!isnan(a->time) && time != a->time)) {
         return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "ambience: time has moved from %g s to %g s; warm up before",
-                         a->first_time, a->time);
+                         "ambience: warm-up at %g s of a volume that began at %g s and is at %g s; "
+                         "warm up before time moves",
+                         time, a->first_time, a->time);
     }
     for (uint32_t bounce = 0; bounce < bounces; bounce++) {
         alp_ambience_invalidate(a, false, NULL, NULL);
