@@ -113,7 +113,8 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_next(alp_ambience *ambience,
 /// @return ALP_OK; INVALID_ARGUMENT (not finite; the request is not open: answered, or void)
 ALP_API ALP_NODISCARD alp_result alp_ambience_submit(alp_ambience *ambience, uint64_t id,
                                                      const alp_sh9 *radiance);
-/// The same from six faces of a cube map.
+/// The same from six faces of a cube map. A host that renders one face a frame adds each face by
+/// alp_sh_projection_add. It then submits the sum by alp_ambience_submit.
 /// @param faces +x −x +y −y +z −z, of side × side pixels of radiance, as alp_sh_project_cube reads
 ALP_API ALP_NODISCARD alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id,
                                                            uint32_t side,
