@@ -274,9 +274,10 @@ ALP_API ALP_NODISCARD alp_result alp_field_create_ambience(alp_ambience *ambienc
                                                            alp_field **field);
 
 /// A field of lamps that a host dims or switches: E = E_all + Σ (strength − 1) E_layer, at least 0.
-/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes
-/// add up exactly where they have the same options, anchors and ages. The field reads the
-/// snapshots of the last updates, and keeps them until it is destroyed.
+/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes of
+/// the same options, anchors and ages add up within about .2 %. While light fades, they also differ
+/// by fades of their own lengths. The field reads the snapshots of the last updates, and keeps them
+/// until it is destroyed.
 /// @param layers    [count]   @param strengths [count] finite, ≥ 0: 0 = off, 1 = as lit
 /// @return ALP_OK; INVALID_ARGUMENT (a volume is NULL, or a strength out of range); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_field_create_ambience_layers(alp_ambience *all,
