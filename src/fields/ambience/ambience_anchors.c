@@ -199,13 +199,12 @@ static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
 /// fade under way goes on at its speed at least, or renewals of still light would never end it.
 static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump, bool relit)
 {
-    const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
-    const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
+    const float fade = fade_seconds(a, at->change);
     if (is_first(a)) {
         return 0.0f;
     }
     if (relit) {
-        return least;
+        return fade_seconds(a, 0.0f);
     }
     if (at->next == ALPI_NO_SLOT) {
         return fade;

@@ -433,18 +433,18 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
     return result;
 }
 
-/// Fills a batch. @param quarters what may be spent
+/// Fills a batch. @param quarters what may be spent; less the cost
 static alp_result fill(alp_ambience_sampler *s, const alp_ambience_camera *camera, uint32_t most,
                        int64_t *quarters, uint32_t *count)
 {
     *count = 0;
-    while (*count<most && * quarters> 0) {
+    for (int64_t left = *quarters; *count < most && left > 0; *quarters = left) {
         uint32_t anchor;
         ALP_TRY(alpi_ambience_choose(s->ambience, camera, &anchor));
         if (anchor == ALPI_NO_ANCHOR) {
             return ALP_OK;
         }
-        *quarters -= add_point(s, anchor, (*count)++);
+        left -= add_point(s, anchor, (*count)++);
     }
     return ALP_OK;
 }
