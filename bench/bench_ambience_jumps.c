@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How light changes from frame to frame at fixed points while a camera flies by, and along a line
-// in space: sun and geometry stand still, so each jump is an artefact of the volume.
+// Changes of light from frame to frame at fixed points while a camera flies by, and along a line in
+// space. Sun and geometry stand still, so each jump is an artefact of the volume.
 #include "ambience_line.h"
 #include "plot.h"
 

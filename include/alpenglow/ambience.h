@@ -34,7 +34,7 @@ typedef enum alp_ambience_lookup {
     /// confidence. The next coarser level provides the confidence that is missing to 1.
     ALP_AMBIENCE_OURS = 0,
     /// The rule of 2006: the nearest anchor of each octant round the node of the point, weighed by
-    /// distance; a coarser level only where there is none. Jumps in space and time.
+    /// distance. Coarser levels count only without any anchor there. Jumps in space and time.
     ALP_AMBIENCE_CONFORMANCE
 } alp_ambience_lookup;
 

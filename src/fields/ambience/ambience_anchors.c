@@ -7,14 +7,14 @@
 #include <string.h>
 
 /// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
-/// half a per cent a frame; a renewal and a new finer anchor at the same place together make one.
+/// half a per cent a frame. A renewal and a new finer anchor at the same place together make 1 %.
 static const float FADE_RATE = 0.3f;
 /// Steepness of the fade of a solid: see solid_openness.
 static const float SOLID_STEEPNESS = 8.0f, INVERSE_E = 0.36787944f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
 static const double SOLID_LIFETIMES = 4.0;
-/// Change of E by new lighting, over the mean, from which an anchor is lit once more: what bounced
-/// to it came from anchors that had the old light.
+/// Change of E by new lighting, over the mean, from which an anchor is lit once more. Its bounced
+/// light came from anchors that had the old light.
 static const float BOUNCE_CHANGE = 0.01f;
 
 // --- pool ----------------------------------------------------------------------------------------

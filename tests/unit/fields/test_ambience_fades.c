@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light of the ambience volume in time: solids that come and go, first light, and light that gets
-// out of date while it is on its way.
+// out of date before it arrives.
 #include "ambience_world.h"
 
 TEST_CONTEXT(1);

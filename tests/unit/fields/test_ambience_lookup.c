@@ -36,8 +36,8 @@ static void go_up(int32_t index[3])
     }
 }
 
-/// The most confidence among the children of the parent of a place, the middle one left out; −1:
-/// its parent has no children, for no anchor lies below it.
+/// The most confidence among the children of the parent of a place, without the middle one. −1:
+/// its parent has no children, because no anchor lies below it.
 static float siblings(const alp_ambience *a, uint32_t level, const int32_t index[3])
 {
     int32_t parent[3] = {index[0], index[1], index[2]};
@@ -59,7 +59,7 @@ static float siblings(const alp_ambience *a, uint32_t level, const int32_t index
     return most;
 }
 
-/// A moment in a texel, which may lie beyond the square: there the map goes on turned by half a
+/// A moment in a texel, which may lie beyond the square. There the map continues, turned by half a
 /// turn about the middle of the edge.
 static double texel_moment(const float (*moments)[2], int x, int y, int which)
 {
