@@ -139,7 +139,7 @@ def goals(tables):
 
 
 def print_goals(lines):
-    print("| goal | asked | measured | |\n|:---|---:|---:|:---|")
+    print("| figure | goal | measured | |\n|:---|---:|---:|:---|")
     for name, sign, bound, figures in goals(rows_of(lines)):
         held = all(number(f) >= bound if sign == "≥" else number(f) <= bound for f in figures)
         print(f"| {name} | {sign} {bound:,} | {', '.join(figures)} | {'met' if held else 'missed'} |")

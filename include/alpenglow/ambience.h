@@ -97,7 +97,7 @@ typedef struct alp_ambience_request {
     double position[3]; ///< metres
     double cell;        ///< metres between anchors there
     bool renewal;       ///< it has light, which gets old
-    bool relight;       ///< alone the lighting changed since its rays were traced
+    bool relight;       ///< only the lighting changed since its rays were traced
 } alp_ambience_request;
 
 /// Chooses the next anchor to sample: missing ones round the camera first, coarse before fine, then

@@ -107,7 +107,7 @@ static alp_result create(alp_ambience *a)
     alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
     a->plan_age = UINT32_MAX / 2;
-    a->rate = 1e6; // until hosts show otherwise
+    a->rate = 1e6; // until it is measured
     for (int k = 0; k < 3; k++) {
         a->bounds_min[k] = -HUGE_VAL;
         a->bounds_max[k] = HUGE_VAL;

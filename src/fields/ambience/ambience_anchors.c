@@ -276,7 +276,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
         at->confidence_rate = 1.0f / fade_seconds(a, loss);
-        // A new anchor comes before those of finer levels, which let it in at their own pace.
+        // A new anchor comes before those of finer levels, which fade it in.
         at->fade_levels = at->state == ALPI_ANCHOR_EMPTY ? 1 : count_levels(a, at);
     }
     if (at->state == ALPI_ANCHOR_SOLID) {
