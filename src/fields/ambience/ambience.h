@@ -86,6 +86,7 @@ struct alp_ambience {
     float base[ALPI_AMBIENCE_FLOATS]; // light where no anchor has any: follows their mean
     float mean;                       // E of the mean of all anchors
     float dawn;                       // [0, 1]: share of all light that is there
+    float fade_rate;                  // 1/s: largest change of E that a fade makes, over the mean E
     alpi_snapshots snapshots;
 
     alpi_wish *wishes; // sorted, most urgent last

@@ -6,9 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
-/// half a per cent a frame. A renewal and a new finer anchor at the same place together make 1 %.
-static const float FADE_RATE = 0.3f;
 /// Steepness of the fade of a solid: see solid_openness.
 static const float SOLID_STEEPNESS = 8.0f, INVERSE_E = 0.36787944f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
@@ -163,7 +160,7 @@ static float fade_seconds(const alp_ambience *a, float change)
 {
     const float least = fmaxf((float)a->options.fade, 1e-3f);
     const float longest = fmaxf(least, (float)a->options.lifetime);
-    return fminf(fmaxf(change / FADE_RATE, least), longest);
+    return fminf(fmaxf(change / a->fade_rate, least), longest);
 }
 
 /// Levels on which an anchor is read.
@@ -452,10 +449,10 @@ void alpi_ambience_find_base(alp_ambience *a, double step)
     const float dt = (float)step, apart = find_difference(mean, a->base);
     a->mean = alpi_ambience_mean(mean);
     const float level = fmaxf(fmaxf(a->mean, alpi_ambience_mean(a->base)), FLT_MIN);
-    const float seconds = fminf(apart / (FADE_RATE * level), (float)a->options.lifetime);
+    const float seconds = fminf(apart / (a->fade_rate * level), (float)a->options.lifetime);
     const float share = at_once || dt >= seconds ? 1.0f : dt / seconds;
     for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
         a->base[k] += share * (mean[k] - a->base[k]);
     }
-    a->dawn = fminf(a->dawn + FADE_RATE * dt, 1.0f);
+    a->dawn = fminf(a->dawn + a->fade_rate * dt, 1.0f);
 }
