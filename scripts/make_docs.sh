@@ -86,13 +86,15 @@ fields() {
 }
 
 ambience() { # the plot goes to docs/pictures
-    local head tables
+    local head tables wall
     head=$(head_of ambience "Live ambience")
+    wall=$(TEST_CASES=light_that_is_seen_does_not_jump AMBIENCE_PATHS=2000 "$tests/test_fields" \
+        test_ambience_continuity | sed -n 's/.* \([0-9.]*\) % along 1 mm$/\1/p')
     tables=$("$(dirname "$command")/alpenglow-bench" ambience --markdown --pictures docs/pictures)
     printf '%s\n\n## Goals\n\n' "$head"
     scripts/make_tables.py text 'ambience goals'
     printf '\n'
-    scripts/make_tables.py goals <<<"$tables"
+    scripts/make_tables.py goals "$wall" <<<"$tables"
     printf '\n'
     scripts/make_tables.py text 'ambience plot'
     printf '\n## The volume along flights\n\n    alpenglow bench ambience\n\n'

@@ -148,7 +148,8 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "off",
-     .help = "Anchors in one layer above the ground, instead of a volume."},
+     .help = "Anchors in one layer above the ground, instead of a volume. For open country: a roof "
+             "counts as ground."},
     {.id = OPTION_VISIBILITY,
      .commands = FLIGHT_COMMANDS,
      .group = GROUP_FLIGHT,
