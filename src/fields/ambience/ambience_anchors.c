@@ -176,6 +176,19 @@ static uint8_t count_levels(const alp_ambience *a, const alpi_anchor *at)
     return count;
 }
 
+/// Levels at the place of an anchor whose light is less than half there, its own included. Fades of
+/// levels add up, so new light gets its share of the rate of one.
+static uint32_t count_fading_in(const alp_ambience *a, const alpi_anchor *at)
+{
+    uint32_t node = alpi_graph_find(&a->graph, at->level, at->index), count = 1;
+    for (; node != ALPI_NO_NODE; node = a->graph.nodes[node].parent) {
+        const uint32_t anchor = a->graph.nodes[node].anchor;
+        const alpi_anchor *above = anchor != ALPI_NO_ANCHOR ? &a->anchors[anchor] : at;
+        count += above != at && above->state == ALPI_ANCHOR_LIT && above->confidence < 0.5f;
+    }
+    return count;
+}
+
 /// Share of a solid's fade in a second. It moves weight between neighbours and coarser levels.
 static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
 {
@@ -272,7 +285,7 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     }
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
-        at->confidence_rate = 1.0f / fade_seconds(a, loss);
+        at->confidence_rate = 1.0f / (fade_seconds(a, loss) * (float)count_fading_in(a, at));
         // A new anchor comes before those of finer levels, which fade it in.
         at->fade_levels = at->state == ALPI_ANCHOR_EMPTY ? 1 : count_levels(a, at);
     }

@@ -6,9 +6,9 @@
 // AMBIENCE_PATHS sets the number of analytic paths, AMBIENCE_RAY_PATHS that of paths by rays:
 //
 //     paths                         % a frame   % along 1 mm
-//     10,000 analytic               .70         .0044
-//     2,000 analytic, by the wall   .83         2.1 (.015 along .01 mm)
-//     20 by rays                    .92         .064
+//     2,000 analytic                .53         .0041
+//     2,000 analytic, by the wall   .63         2.1 (.015 along .01 mm)
+//     20 by rays                    .66         .058
 #include "ambience_world.h"
 
 #include "scene/builtin/builtin_terrain.h"
@@ -188,8 +188,8 @@ static void place_alley(alp_ambience_camera *camera, uint64_t *seed, watch *w)
         camera->velocity[k] = 60.0 * (world_random(seed) - 0.5);
         camera->position[k] = middle[k] - 0.25 * camera->velocity[k];
     }
-    camera->position[1] = 22.0;
-    place_points(camera, 18.0, seed, w);
+    camera->position[1] = middle[1] + 4.0 + 10.0 * world_random(seed);
+    place_points(camera, middle[1] + 12.0, seed, w);
     for (int i = 0; i < POINTS / 2; i++) {
         for (int k = 0; k < 3; k++) {
             const double away = world_random(seed);
