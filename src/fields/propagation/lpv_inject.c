@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { GRAIN = 4096, SLABS = 8 };
-enum { OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1 }; // in place of a place
+static const uint32_t OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1; // in place of a place
 /// A virtual light lies this many cells above its surface.
 static const double ABOVE = 0.5;
 

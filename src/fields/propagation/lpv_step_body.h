@@ -94,7 +94,7 @@ static inline passed arrive(const row_work *w, reading r, uint32_t x, bool block
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
     const size_t s = w->light_step, k = w->open_step;
-    const float *p = w->from[d] + x, *o = w->open[d] + x;
+    const float *p = w->from[d] + x, *o = blocked ? w->open[d] + x : NULL;
     return send(r, sign, p[0], p[a * s], p[b * s], p[c * s], blocked ? o[0] : 1.0f,
                 blocked ? o[k] : 1.0f, blocked ? o[2 * k] : 1.0f, blocked ? o[3 * k] : 1.0f,
                 blocked ? o[4 * k] : 1.0f);
