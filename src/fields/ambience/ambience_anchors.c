@@ -454,7 +454,7 @@ static bool find_mean(const alp_ambience *a, float mean[ALPI_AMBIENCE_FLOATS])
 
 void alpi_ambience_find_base(alp_ambience *a, double step)
 {
-    float mean[ALPI_AMBIENCE_FLOATS];
+    float mean[ALPI_AMBIENCE_FLOATS] = {0.0f};
     if (!find_mean(a, mean)) {
         return;
     }

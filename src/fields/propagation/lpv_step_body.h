@@ -64,16 +64,20 @@ typedef struct passed {
     float far, sides, b, c;
 } passed;
 
-/// What light sends along an axis. Scalars alone, or the compiler does not vectorise the loop over
-/// cells.
-/// @param i, va, vb, vc light of a cell: va along the axis   @param o0 … o4 shares that pass
-static inline passed send(reading r, float sign, float i, float va, float vb, float vc, float o0,
-                          float o1, float o2, float o3, float o4)
+/// Light of a cell: I(ω) = i + …, va along an axis.
+typedef struct cell_light {
+    float i, va, vb, vc;
+} cell_light;
+
+/// What light sends along an axis. Scalars, or the compiler does not vectorise the loop over cells.
+/// @param o0 … o4 shares that pass the far face, and sides at + and − of two axes
+static inline passed send(reading r, float sign, cell_light p, float o0, float o1, float o2,
+                          float o3, float o4)
 {
-    const float beside = i + sign * r.along * va;
-    const float b0 = larger(beside + vb, 0.0f) * o1, b1 = larger(beside - vb, 0.0f) * o2;
-    const float c0 = larger(beside + vc, 0.0f) * o3, c1 = larger(beside - vc, 0.0f) * o4;
-    const float far = larger(i + sign * r.straight * va, 0.0f) * o0;
+    const float beside = p.i + sign * r.along * p.va;
+    const float b0 = larger(beside + p.vb, 0.0f) * o1, b1 = larger(beside - p.vb, 0.0f) * o2;
+    const float c0 = larger(beside + p.vc, 0.0f) * o3, c1 = larger(beside - p.vc, 0.0f) * o4;
+    const float far = larger(p.i + sign * r.straight * p.va, 0.0f) * o0;
     return (passed){far, (b0 + b1) + (c0 + c1), b0 - b1, c0 - c1};
 }
 
@@ -95,9 +99,9 @@ static inline passed arrive(const row_work *w, reading r, uint32_t x, bool block
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
     const size_t s = w->light_step, k = w->open_step;
     const float *p = w->from[d] + x, *o = blocked ? w->open[d] + x : NULL;
-    return send(r, sign, p[0], p[a * s], p[b * s], p[c * s], blocked ? o[0] : 1.0f,
-                blocked ? o[k] : 1.0f, blocked ? o[2 * k] : 1.0f, blocked ? o[3 * k] : 1.0f,
-                blocked ? o[4 * k] : 1.0f);
+    const cell_light light = {p[0], p[a * s], p[b * s], p[c * s]};
+    return send(r, sign, light, blocked ? o[0] : 1.0f, blocked ? o[k] : 1.0f,
+                blocked ? o[2 * k] : 1.0f, blocked ? o[3 * k] : 1.0f, blocked ? o[4 * k] : 1.0f);
 }
 
 /// Flux that blockers throw back of the light that leaves a cell by direction d.
@@ -107,8 +111,9 @@ static inline float come_back(const row_work *w, reading r, uint32_t x, int d, s
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
     const size_t s = w->light_step, k = w->open_step;
     const float *p = w->own + x, *o = w->leave[d] + x;
-    const passed met = send(r, sign, p[0], p[a * s], p[b * s], p[c * s], 1.0f - o[0], 1.0f - o[k],
-                            1.0f - o[2 * k], 1.0f - o[3 * k], 1.0f - o[4 * k]);
+    const cell_light light = {p[0], p[a * s], p[b * s], p[c * s]};
+    const passed met = send(r, sign, light, 1.0f - o[0], 1.0f - o[k], 1.0f - o[2 * k],
+                            1.0f - o[3 * k], 1.0f - o[4 * k]);
     return w->albedo[d][x] * (FAR * met.far + SIDE * met.sides);
 }
 
@@ -233,7 +238,7 @@ static void step_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32_
                   .scheme = step->scheme};
     for (uint32_t row = first; row < end; row++) {
         const uint32_t y = row % g->size[1], z = row / g->size[1];
-        const float *own = light_at(g, y, z, false), *albedo[DIRECTIONS];
+        const float *own = light_at(g, y, z, false), *albedo[DIRECTIONS] = {NULL};
         const float *from[DIRECTIONS] = {own,
                                          own + 2,
                                          light_at(g, (int64_t)y - 1, z, step->wraps) + 1,
