@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene under sun and sky, camera flights and fixed places in builtin:terrain, and sets of free
-// points whose true irradiance is known: what the benches of the ambience volume share.
+// World of the benches of the ambience volume: a scene under sun and sky, camera flights and fixed
+// places in builtin:terrain. Sets of free points have known irradiance.
 #ifndef AMBIENCE_WORLD_BENCH_H
 #define AMBIENCE_WORLD_BENCH_H
 

@@ -21,11 +21,12 @@ typedef struct bench_options {
 typedef int bench_fn(const bench_options *options);
 bench_fn bench_trace, bench_transport, bench_atlas, bench_maps, bench_accuracy, bench_against_truth,
     bench_denoise, bench_bounced, bench_light, bench_sh, bench_probes, bench_fields, bench_ambience,
-    bench_formats;
+    bench_lpv, bench_formats;
 bench_fn bench_direct, bench_path_tracer;              // further tables of transport
 bench_fn bench_light_bakes;                            // of light
 bench_fn bench_kept_hits;                              // of probes
 bench_fn bench_ambience_quality, bench_ambience_jumps; // of ambience
+bench_fn bench_lpv_truth;                              // of lpv
 
 /// Figures of one atlas for scripts; the words after its name. @return exit status
 int bench_measure_atlas(int count, char **words);

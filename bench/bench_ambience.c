@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The live ambience volume: anchors sampled and relit against the raw calls on the very packets
-// that sampling sends; look-ups, updates, and what it costs to keep anchors current.
+// Speed of the live ambience volume: anchors sampled and relit, against the raw calls on the very
+// packets that sampling sends. Look-ups, updates, and the cost of keeping anchors current.
 #include "ambience_world.h"
 #include "raw_embree.h"
 

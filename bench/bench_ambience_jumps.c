@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How light changes from frame to frame at fixed points while a camera flies by, and along a line
-// in space: sun and geometry stand still, so each jump is an artefact of the volume.
+// Changes of light from frame to frame at fixed points while a camera flies by, and along a line in
+// space. Sun and geometry stand still, so each jump is an artefact of the volume.
 #include "ambience_line.h"
 #include "plot.h"
 
@@ -10,6 +10,9 @@
 
 #define SECONDS 5.0
 enum { HALVES = 10, WAYS = 4, PATHS = 16, LINE_PATHS = 2048, FRAMES_MOST = 1024 };
+enum { SERIES = 3 /* the first ways */ };
+/// Fades of this many times the mean E in a second end within a frame.
+static const float AT_ONCE = 1e6f;
 static const char *const names[WAYS] = {"ours", "ours, no fade", "conformance",
                                         "conformance, no fade"};
 
@@ -20,7 +23,7 @@ typedef struct jumps_bench {
     float (*before[2])[3];             // E at the last frame, of both views
     double largest[WAYS][FRAMES_MOST]; // change of each frame, W·m⁻²
     double mean;                       // E of the first run
-    float *series[2];                  // [points][frames] E by ours, with fade and without
+    float *series[SERIES];             // [points][frames] E: by the first ways
     ambience_line line;                // at half of the flight, with fade
     int frames;
     double rate;
@@ -32,7 +35,6 @@ static void compare_frame(jumps_bench *b, const ambience_run *run, int frame, bo
     ambience_points *p = &b->points;
     for (int view = 0; view < 2; view++) {
         const int way = 2 * view + (fades ? 0 : 1);
-        float *series = b->series[fades ? 0 : 1];
         double most = 0.0;
         ambience_view_read(now, view == 0 ? VIEW_OURS : VIEW_CONFORMANCE, p->count,
                            (const double(*)[3])p->positions, (const float(*)[3])p->normals,
@@ -42,9 +44,9 @@ static void compare_frame(jumps_bench *b, const ambience_run *run, int frame, bo
             most = fmax(most, fabs(e - (double)b->before[view][i / 3][i % 3]));
             b->mean += way == 0 ? e / (3.0 * p->count * b->frames) : 0.0;
         }
-        for (uint32_t i = 0; i < p->count && view == 0; i++) {
+        for (uint32_t i = 0; i < p->count && way < SERIES; i++) {
             const float *e = p->values[i];
-            series[(int)i * b->frames + frame] = (e[0] + e[1] + e[2]) / 3.0f;
+            b->series[way][(int)i * b->frames + frame] = (e[0] + e[1] + e[2]) / 3.0f;
         }
         b->largest[way][frame] = frame > 0 ? most : 0.0;
         memcpy(b->before[view], p->values, p->count * sizeof *p->values);
@@ -64,6 +66,9 @@ static bool fly(jumps_bench *b, bool fades)
     const int warm = (int)(WORLD_STANDS * b->rate);
     o.fade = fades ? o.fade : 0.0;
     bool good = ambience_run_open(&b->world, &o, &run);
+    if (good && !fades) {
+        run.ambience->fade_rate = AT_ONCE;
+    }
     for (int frame = 0; frame < warm + b->frames && good; frame++) {
         const double time = frame / b->rate;
         ambience_world_fly(&b->world, 0, time, &camera);
@@ -186,8 +191,9 @@ static bool draw_plot(jumps_bench *b)
     ambience_line *l = &b->line;
     const double percent = 100.0 / b->mean;
     const int at = find_liveliest(b) * b->frames;
-    scale(&b->series[0][at], b->frames, percent);
-    scale(&b->series[1][at], b->frames, percent);
+    for (int i = 0; i < SERIES; i++) {
+        scale(&b->series[i][at], b->frames, percent);
+    }
     scale(l->ours, LINE_STEPS + 1, percent);
     scale(l->conformance, LINE_STEPS + 1, percent);
     scale(l->truth, LINE_TRUTHS, percent);
@@ -195,9 +201,10 @@ static bool draw_plot(jumps_bench *b)
         {.title = "In time: irradiance at a fixed point, % of the mean",
          .across = "seconds of the flight",
          .high = SECONDS,
-         .lines = {{.name = "with fade", .values = &b->series[0][at], .count = b->frames},
-                   {.name = "without fade", .values = &b->series[1][at], .count = b->frames}},
-         .line_count = 2},
+         .lines = {{.name = names[0], .values = &b->series[0][at], .count = b->frames},
+                   {.name = names[1], .values = &b->series[1][at], .count = b->frames},
+                   {.name = names[2], .values = &b->series[2][at], .count = b->frames}},
+         .line_count = SERIES},
         {.title = "In space: irradiance along a line, % of the mean",
          .across = "metres",
          .high = LINE_METRES,
@@ -216,6 +223,8 @@ static void open_series(jumps_bench *b)
 {
     for (int i = 0; i < 2; i++) {
         b->before[i] = bench_allocate(b->points.count, sizeof *b->before[i]);
+    }
+    for (int i = 0; i < SERIES; i++) {
         b->series[i] =
             bench_allocate((size_t)b->points.count * (size_t)b->frames, sizeof *b->series[i]);
     }
@@ -226,6 +235,8 @@ static void close_bench(jumps_bench *b)
 {
     for (int i = 0; i < 2; i++) {
         free(b->before[i]);
+    }
+    for (int i = 0; i < SERIES; i++) {
         free(b->series[i]);
     }
     ambience_line_close(&b->line);

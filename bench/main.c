@@ -15,7 +15,8 @@ static const struct {
     {"denoise", bench_denoise},   {"bounced", bench_bounced},
     {"light", bench_light},       {"sh", bench_sh},
     {"probes", bench_probes},     {"fields", bench_fields},
-    {"ambience", bench_ambience}, {"formats", bench_formats},
+    {"ambience", bench_ambience}, {"lpv", bench_lpv},
+    {"formats", bench_formats},
 };
 enum { BENCH_COUNT = sizeof benches / sizeof *benches, EXIT_USAGE = 2 };
 
@@ -55,7 +56,7 @@ int main(int count, char **words)
             fprintf(stderr,
                     "alpenglow bench: there is no '%s'; "
                     "trace, transport, atlas, maps, accuracy, truth, denoise, bounced, light, "
-                    "sh, probes, fields, ambience, formats, --quick, "
+                    "sh, probes, fields, ambience, lpv, formats, --quick, "
                     "--markdown, --scene NAME, --pictures DIR, --technique NAME\n",
                     words[i]);
             return EXIT_USAGE;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A small game loop: light that follows the camera through a landscape, for an object that moves.
+// Prints a line a second: E on top of the object, by the library and by its shader's vectors.
 //
 //     cc 07_ambience.c -o ambience $(pkg-config --cflags --libs alpenglow)
-//
-// Prints a line a second: E on top of the object, by the library and by its shader's vectors.
 #include <alpenglow/alpenglow.h>
 
 #include <stdio.h>
 
-enum { SECONDS = 3, FRAMES = 60, SAMPLES = 20, SIDE = 16 };
+enum { SECONDS = 3, FRAMES = 60, SAMPLES = 20, SIDE = 16, BOUNCES = 3 };
 
 /// Answers one request by the host's own renderer, in place of alp_ambience_sample. Here a bright
 /// sky over dark ground, seen from anywhere, stands for its six pictures.
@@ -32,22 +31,18 @@ static alp_result sample_by_faces(alp_ambience *ambience, const alp_ambience_cam
     return alp_ambience_submit_faces(ambience, request.id, SIDE, faces);
 }
 
-/// Lights an object. Any thread may, between begin_read and end_read.
-static void light_object(alp_ambience *ambience, const double object[1][3], double time)
+/// Lights the top of an object: E by the library, and by its shader. Any thread may.
+static void light_object(alp_ambience *ambience, const double object[1][3], float e[2][3])
 {
     static const float up[1][3] = {{0.0f, 1.0f, 0.0f}};
-    float e[1][3], vectors[12][4], shaded[3]; // vectors: uniforms of a shader
+    float vectors[12][4]; // uniforms of a shader
     alp_sh9 light;
     const alp_ambience_snapshot *now = alp_ambience_begin_read(ambience);
     alp_ambience_irradiance(now, 1, object, up, e);
     alp_ambience_coefficients(now, object[0], &light);
     alp_ambience_end_read(ambience, now);
     alp_sh_shader_vectors(&light, vectors);
-    alp_sh_shader_irradiance(vectors[0], up[0], shaded);
-    if (time > 0.0 && time == (int)time) {
-        printf("%.0f s: %u anchors, object lit by %.0f lux, in the shader %.0f lux\n", time,
-               alp_ambience_get_info(ambience).anchors, (double)e[0][1], (double)shaded[1]);
-    }
+    alp_sh_shader_irradiance(vectors[0], up[0], e[1]);
 }
 
 static alp_result play(alp_camera view, alp_ambience *ambience, alp_ambience_sampler *sampler)
@@ -57,18 +52,23 @@ static alp_result play(alp_camera view, alp_ambience *ambience, alp_ambience_sam
     for (int frame = 0; frame <= SECONDS * FRAMES && result == ALP_OK; frame++) {
         const double time = (double)frame / FRAMES;
         double object[1][3];
+        float e[2][3];
         for (int k = 0; k < 3; k++) { // a twentieth of the way to the target each second
             camera.forward[k] = (double)view.target[k] - (double)view.position[k];
             camera.velocity[k] = 0.05 * camera.forward[k];
             camera.position[k] = (double)view.position[k] + time * camera.velocity[k];
             object[0][k] = camera.position[k] + 0.02 * camera.forward[k];
         }
-        result = alp_ambience_update(ambience, time);
-        if (result == ALP_OK) { // the first anchor by pictures, for show; the others by rays
-            result = frame == 0 ? sample_by_faces(ambience, &camera)
-                                : alp_ambience_sample(sampler, &camera, SAMPLES, 0.0, NULL);
+        result = frame == 0 ? alp_ambience_sampler_warm(sampler, &camera, time, BOUNCES)
+                            : alp_ambience_update(ambience, time);
+        result = result       ? result // one anchor by pictures, for show; the others by rays
+                 : frame == 1 ? sample_by_faces(ambience, &camera)
+                              : alp_ambience_sample(sampler, &camera, SAMPLES, 0.0, NULL);
+        light_object(ambience, (const double(*)[3])object, e);
+        if (frame > 0 && frame % FRAMES == 0) {
+            printf("%.0f s: %u anchors, object lit by %.0f lux, in the shader %.0f lux\n", time,
+                   alp_ambience_get_info(ambience).anchors, (double)e[0][1], (double)e[1][1]);
         }
-        light_object(ambience, (const double(*)[3])object, time);
     }
     return result;
 }

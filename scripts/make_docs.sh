@@ -4,7 +4,7 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas, peers, sh, fields or ambience; without it all seven. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers, sh, fields, ambience or lpv; without it all eight. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -86,17 +86,28 @@ fields() {
 }
 
 ambience() { # the plot goes to docs/pictures
-    local head tables
+    local head tables wall
     head=$(head_of ambience "Live ambience")
+    wall=$(TEST_CASES=light_that_is_seen_does_not_jump AMBIENCE_PATHS=2000 "$tests/test_fields" \
+        test_ambience_continuity | sed -n 's/.* \([0-9.]*\) % along 1 mm$/\1/p')
     tables=$("$(dirname "$command")/alpenglow-bench" ambience --markdown --pictures docs/pictures)
     printf '%s\n\n## Goals\n\n' "$head"
     scripts/make_tables.py text 'ambience goals'
     printf '\n'
-    scripts/make_tables.py goals <<<"$tables"
+    scripts/make_tables.py goals "$wall" <<<"$tables"
     printf '\n'
     scripts/make_tables.py text 'ambience plot'
     printf '\n## The volume along flights\n\n    alpenglow bench ambience\n\n'
     scripts/make_tables.py captions <<<"$tables"
+}
+
+lpv() { # the plot goes to docs/pictures
+    head_of lpv "Light propagation"
+    printf '\n## Speed, reach and error\n\n    alpenglow bench lpv\n\n'
+    "$(dirname "$command")/alpenglow-bench" lpv --markdown --pictures docs/pictures |
+        scripts/make_tables.py captions
+    printf '\n'
+    scripts/make_tables.py text 'lpv reach'
 }
 
 write_page() {
@@ -117,10 +128,10 @@ write_page() {
     esac
 }
 
-for page in "${@:-accuracy speed atlas peers sh fields ambience}"; do
+for page in "${@:-accuracy speed atlas peers sh fields ambience lpv}"; do
     for one in $page; do
         case $one in
-            accuracy | speed | atlas | peers | sh | fields | ambience) write_page "$one" ;;
+            accuracy | speed | atlas | peers | sh | fields | ambience | lpv) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac
     done

@@ -47,19 +47,32 @@ def teapot_room(command, out):
                    check=True)
 
 
-def space(command, out):
-    """The teapot room by models of light in space, in a row; a white ball is lit by each."""
+def row(command, out, options, variants):
+    """Renders of one scene with one exposure, side by side."""
     pictures = []
     with tempfile.TemporaryDirectory() as folder:
-        for options in [["constant"], ["environment"], ["probes", "--spacing", "0.25"],
-                        ["reference", "--samples", "256"]]:
+        for variant in variants:
             picture = folder + "/picture.png"
-            subprocess.run([command, "render", "builtin:teapot-room", "-o", picture, "-f", "-q",
-                            "--resolution", f"{WIDTH}x{HEIGHT}", "--samples", "64", "--exposure",
-                            "0", "--object", "sphere,0.9,0.25,-0.2,0.25", "--with", *options],
-                           check=True)
+            subprocess.run([command, "render", *options, "-o", picture, "-f", "-q", "--resolution",
+                            f"{WIDTH}x{HEIGHT}", "--with", *variant], check=True)
             pictures.append(read_png(picture))
     write_png(out, [b"".join(rows) for rows in zip(*pictures)])
+
+
+def space(command, out):
+    """The teapot room by models of light in space, in a row; a white ball is lit by each."""
+    row(command, out, ["builtin:teapot-room", "--samples", "64", "--exposure", "0", "--object",
+                       "sphere,0.9,0.25,-0.2,0.25"],
+        [["constant"], ["environment"], ["probes", "--spacing", "0.25"],
+         ["reference", "--samples", "256"]])
+
+
+def propagation(command, out):
+    """The atrium in the sun by light propagation: two modes, mist, the reference."""
+    row(command, out, ["builtin:atrium", "--sun", "40,50,20", "--direct", "on", "--samples", "16",
+                       "--exposure", "1.3"],
+        [["lpv"], ["lpv", "--mode", "conformance"], ["lpv", "--media", "0.015"],
+         ["reference", "--samples", "1024"]])
 
 
 def script(name, *arguments):
@@ -71,6 +84,7 @@ PICTURES = {  # name: how it is made, and whether it is quick
     "atrium": (atrium, True),
     "teapot-room": (teapot_room, True),
     "space": (space, True),
+    "propagation": (propagation, True),
     "plates": (script("make_plates.py"), True),
     "blend-borders": (script("make_borders.py"), True),
     "windows": (script("make_windows.py", "192"), False),

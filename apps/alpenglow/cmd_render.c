@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
+#include "cameras.h"
 #include "fields.h"
 #include "film.h"
 #include "interrupt.h"
@@ -12,58 +13,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAMERA_NUMBERS = 7 };
-
 static bool read_numbers(const char *text, double *numbers, int count)
 {
     const char *end = number_parse_list(text, numbers, count);
     return end != NULL && *end == '\0';
 }
 
-/// @param origin of the scene in the world of its file
-static bool place_camera(const double n[CAMERA_NUMBERS], const double origin[3], alp_camera *camera)
-{
-    double axis[3], length = 0.0;
-    for (int i = 0; i < 3; i++) {
-        camera->position[i] = (float)(n[i] - origin[i]);
-        camera->target[i] = (float)(n[i + 3] - origin[i]);
-        axis[i] = n[i + 3] - n[i];
-        length += axis[i] * axis[i];
-    }
-    length = sqrt(length);
-    // Looking straight up or down, +Y cannot be up.
-    bool vertical = fabs(axis[1]) > 0.9999 * length;
-    camera->up[0] = 0.0f;
-    camera->up[1] = vertical ? 0.0f : 1.0f;
-    camera->up[2] = vertical ? -1.0f : 0.0f;
-    camera->vertical_fov = (float)(n[6] * (M_PI / 180.0));
-    return length > 0.0 && n[6] >= 1e-3 && n[6] <= 179.0;
-}
-
-static int read_camera(const char *text, const double origin[3], alp_render_options *o)
-{
-    uint64_t index = 0;
-    double numbers[CAMERA_NUMBERS];
-    number_result result = number_parse_whole(text, &index);
-    if (strcmp(text, "auto") == 0) {
-        o->camera_index = UINT32_MAX;
-    } else if (result == NUMBER_OK && index < UINT32_MAX) {
-        o->camera_index = (uint32_t)index;
-    } else if (result != NUMBER_NONE || !read_numbers(text, numbers, CAMERA_NUMBERS) ||
-               !place_camera(numbers, origin, &o->camera)) {
-        return usage_error(COMMAND_RENDER,
-                           "--camera: '%s' is not a camera; give a number from 0, auto, or "
-                           "PX,PY,PZ,TX,TY,TZ,VFOV: position and another point as target in "
-                           "metres, and VFOV 0.001 to 179 degrees",
-                           text);
-    }
-    return EXIT_DONE;
-}
-
 /// Methods and models of the choices of --with, in their order.
 static const struct {
     alp_render_method method;
-    int model; // of FIELD: an ambient model, PROBES or AMBIENCE
+    int model; // of FIELD: an ambient model, PROBES, AMBIENCE or LPV
 } methods[] = {{ALP_RENDER_AO, 0},
                {ALP_RENDER_ALBEDO, 0},
                {ALP_RENDER_REFERENCE, 0},
@@ -76,27 +35,22 @@ static const struct {
                {ALP_RENDER_FIELD, ALP_AMBIENT_CUBE},
                {ALP_RENDER_FIELD, ALP_AMBIENT_ENVIRONMENT},
                {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1}};
-enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE };
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1},
+               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 2}};
+enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE, LPV };
 
 static int model_of(const command_line *a)
 {
     return methods[a->values[OPTION_WITH].choice].model;
 }
 
-static bool shows_probes(const command_line *a, const alp_render_options *o)
+static field_model field_of(const command_line *a, const alp_render_options *o)
 {
-    return o->method == ALP_RENDER_FIELD && model_of(a) == PROBES;
-}
-
-static bool shows_ambience(const command_line *a, const alp_render_options *o)
-{
-    return o->method == ALP_RENDER_FIELD && model_of(a) == AMBIENCE;
-}
-
-static int check_flight(const command_line *a, const alp_render_options *o)
-{
-    return shows_ambience(a, o) ? flight_run_check(a) : flight_run_refuse(a);
+    const int model = o->method == ALP_RENDER_FIELD ? model_of(a) : -1;
+    return model == PROBES     ? FIELD_PROBES
+           : model == AMBIENCE ? FIELD_AMBIENCE
+           : model == LPV      ? FIELD_LPV
+                               : FIELD_OTHER;
 }
 
 /// Refuses options that a method does not use.
@@ -143,7 +97,8 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--ao-falloff", OPTION_AO_FALLOFF, AO},
                    {"--ao-cone", OPTION_AO_CONE, AO},
                    {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
-    const unsigned own = 1u << o->method | (shows_probes(a, o) ? (unsigned)PROBES_ONLY : 0u);
+    const unsigned own =
+        1u << o->method | (field_of(a, o) == FIELD_PROBES ? (unsigned)PROBES_ONLY : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].methods & own) == 0 && a->values[read_by[i].id].given) {
             return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
@@ -207,8 +162,9 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
                            output);
     }
     if (!a->values[OPTION_WITH].given) {
-        return usage_error(COMMAND_RENDER, "no method; give --with reference, radiosity, "
-                                           "lightmap, probes, ambience, ao, albedo or another");
+        return usage_error(COMMAND_RENDER,
+                           "no method; give --with reference, radiosity, "
+                           "lightmap, probes, ambience, lpv, ao, albedo or another");
     }
     o->method = methods[a->values[OPTION_WITH].choice].method;
     o->without_direct = a->values[OPTION_DIRECT].choice == 0;
@@ -220,38 +176,23 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
         code = resolution_read(a, &o->width, &o->height);
     }
     if (code == EXIT_DONE) {
-        code = read_camera(a->values[OPTION_CAMERA].text, (const double[3]){0.0, 0.0, 0.0}, o);
+        code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, o);
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
-    code = code == EXIT_DONE ? check_flight(a, o) : code;
-    code = code == EXIT_DONE ? probe_file_check(a) : code;
+    code = code == EXIT_DONE ? field_check(a, field_of(a, o)) : code;
     code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
     return code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
 }
 
-/// Places a camera given by position in the scene that was loaded. One given by number must exist.
-static int find_camera(const session *s, const command_line *a, alp_render_options *o)
+/// Places the camera and the object in the scene that was loaded.
+static int place(const session *s, const command_line *a, alp_render_options *o)
 {
     const alp_scene_info info = alp_scene_get_info(s->scene);
-    int code = read_camera(a->values[OPTION_CAMERA].text, info.origin, o);
-    code = code == EXIT_DONE ? read_object(a, info.origin, o) : code;
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    uint32_t cameras = info.cameras;
-    bool numbered = o->camera.vertical_fov <= 0.0f && o->camera_index != UINT32_MAX;
-    if (a->values[OPTION_CAMERA].given && numbered && o->camera_index >= cameras) {
-        char text[160];
-        snprintf(text, sizeof text,
-                 "--camera %u: the scene has %u camera%s, counted from 0; auto is a view of "
-                 "everything",
-                 o->camera_index, cameras, cameras == 1 ? "" : "s");
-        return failure(text);
-    }
-    return EXIT_DONE;
+    const int code = camera_find(s, a, o);
+    return code == EXIT_DONE ? read_object(a, info.origin, o) : code;
 }
 
 /// @param film options of development; returns the exposure that was used
@@ -314,14 +255,34 @@ static int make_ambience(session *s, const command_line *a, alp_render_options *
     return code;
 }
 
+/// Propagates light through grids that follow the camera of the picture.
+static int make_lpv(session *s, const command_line *a, alp_render_options *o, field_source *source)
+{
+    if (a->values[OPTION_SKY].given) {
+        session_warn(s, "no-sky", "--sky",
+                     "light propagation holds no sky, which is background only; --with probes "
+                     "holds its light");
+    }
+    const alp_result result = alp_render_find_camera(s->scene, o, &o->camera);
+    const int code = result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
+                                      : session_end(s, result);
+    o->lpv = source->lpv != NULL ? source->lpv->lpv : NULL;
+    o->gloss = a->values[OPTION_GLOSS].given;
+    o->scattering = (float)a->values[OPTION_MEDIA].real;
+    return code;
+}
+
 /// Makes the field of --with.
 static int make_field(session *s, const command_line *a, alp_render_options *o,
                       field_source *source)
 {
-    if (shows_ambience(a, o)) {
+    if (field_of(a, o) == FIELD_AMBIENCE) {
         return make_ambience(s, a, o, source);
     }
-    if (!shows_probes(a, o)) {
+    if (field_of(a, o) == FIELD_LPV) {
+        return make_lpv(s, a, o, source);
+    }
+    if (field_of(a, o) != FIELD_PROBES) {
         const alp_ambient_model model = (alp_ambient_model)model_of(a);
         const alp_result result = field_fit(s, a, model, &o->lighting, source);
         return result == ALP_OK ? EXIT_DONE : session_end(s, result);
@@ -399,7 +360,7 @@ int command_render(const command_line *a)
     alp_image *sky;
     code = lighting_open(&s, a, &options.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
-        code = find_camera(&s, a, &options);
+        code = place(&s, a, &options);
     }
     if (code == EXIT_DONE) {
         code = render(&s, a, &options);

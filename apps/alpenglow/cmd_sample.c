@@ -10,7 +10,7 @@
 #include <string.h>
 
 /// Choices of --with, in its order; the ambient models stand first, in theirs.
-enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE, WITH_AMBIENCE };
+enum { WITH_PROBES = ALP_AMBIENT_COUNT, WITH_REFERENCE, WITH_AMBIENCE, WITH_LPV };
 
 static int check_options(const command_line *a)
 {
@@ -25,7 +25,7 @@ static int check_options(const command_line *a)
                    {"--samples", OPTION_SAMPLES, WITH_REFERENCE}};
     if (!with->given) {
         return usage_error(COMMAND_SAMPLE,
-                           "no model; give --with reference, probes, ambience, constant, "
+                           "no model; give --with reference, probes, ambience, lpv, constant, "
                            "hemisphere, ground-map, ambient-cube or environment");
     }
     if (!a->values[OPTION_AT].given) {
@@ -44,8 +44,10 @@ static int check_options(const command_line *a)
         return usage_error(COMMAND_SAMPLE, "--path and --at are both standard input; give one of "
                                            "them a file");
     }
-    const int code = with->choice == WITH_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
-    return code == EXIT_DONE ? probe_file_check(a) : code;
+    return field_check(a, with->choice == WITH_AMBIENCE ? FIELD_AMBIENCE
+                          : with->choice == WITH_LPV    ? FIELD_LPV
+                          : with->choice == WITH_PROBES ? FIELD_PROBES
+                                                        : FIELD_OTHER);
 }
 
 typedef struct sampled {
@@ -86,6 +88,8 @@ static int read_field(session *s, const command_line *a, const alp_lighting_opti
         code = field_probes(s, a, lighting, ALP_LOOKUP_OURS, &source);
     } else if (with == WITH_AMBIENCE) {
         code = field_ambience(s, a, lighting, &source);
+    } else if (with == WITH_LPV) {
+        code = field_lpv(s, a, lighting, NULL, &source);
     } else {
         code = session_end(s, field_fit(s, a, (alp_ambient_model)with, lighting, &source));
     }

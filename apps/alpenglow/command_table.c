@@ -50,6 +50,11 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Flies a camera through SCENE and lights what is around it: a volume of light probes "
          "that are sampled frame by frame, fade in, and expire. Prints anchors, samples, memory, "
          "time and error of each second. docs/manual/ambience.md explains them."},
+    [COMMAND_LPV] =
+        {"lpv", "SCENE [OPTIONS]", "propagate light through a grid, frame by frame", 1, command_lpv,
+         "Lights SCENE anew in each of some frames, under a sun that turns: traces maps of the "
+         "surfaces that lamps light, injects their light into a grid of cells, and lets it travel "
+         "from cell to cell. Prints the time of each stage. docs/manual/lpv.md explains them."},
     [COMMAND_SH] = {"sh", "ENV [--convention NAME] [-o IMAGE.hdr|.exr|.png]",
                     "print the spherical harmonics of an environment", 1, command_sh,
                     "Projects ENV to nine coefficients and prints them, one \"r g b\" a line, for "
@@ -69,8 +74,6 @@ static const command_entry commands[COMMAND_COUNT] = {
          "against the ray tracer, its bakes by workers and size), sh (projection of cube maps), "
          "probes (look-ups, and rays against the ray tracer), fields (models of light in space "
          "against the reference), ambience (the live volume along flights) or formats (reading)."},
-    [COMMAND_LPV] = {"lpv", "SCENE", "propagate light through a volume", 1, NULL,
-                     "bake --maps light bakes light on surfaces"},
     [COMMAND_VIEW] = {"view", "SCENE|OUT", "display a scene", 1, NULL,
                       "render makes a picture, and any glTF viewer displays a bake"},
 };
@@ -94,7 +97,7 @@ int command_operand_limit(command_id command)
 bool command_interruptible(command_id command)
 {
     return command == COMMAND_BAKE || command == COMMAND_RENDER || command == COMMAND_SAMPLE ||
-           command == COMMAND_PROBES || command == COMMAND_AMBIENCE;
+           command == COMMAND_PROBES || command == COMMAND_AMBIENCE || command == COMMAND_LPV;
 }
 
 const char *const *builtin_scene_names(size_t *count)

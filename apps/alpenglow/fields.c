@@ -85,6 +85,20 @@ int probe_file_check(const command_line *a)
     return read_bounds(a, (const double[3]){0.0, 0.0, 0.0}, &unused);
 }
 
+int field_check(const command_line *a, field_model model)
+{
+    int code = model == FIELD_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
+    if (code == EXIT_DONE) {
+        code = model == FIELD_LPV ? lpv_run_check(a) : lpv_run_refuse(a);
+    }
+    if (code == EXIT_DONE && a->values[OPTION_CELL].given && model != FIELD_AMBIENCE &&
+        model != FIELD_LPV) {
+        return usage_error(a->command, "--cell: does not apply to --with %s",
+                           a->values[OPTION_WITH].text);
+    }
+    return code == EXIT_DONE ? probe_file_check(a) : code;
+}
+
 alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
                      const alp_lighting_options *lighting, field_source *source)
 {
@@ -152,6 +166,21 @@ int field_ambience(session *s, const command_line *a, const alp_lighting_options
     return session_end(s, result);
 }
 
+int field_lpv(session *s, const command_line *a, const alp_lighting_options *lighting,
+              const alp_camera *camera, field_source *source)
+{
+    source->lpv = allocate_or_exit(NULL, sizeof *source->lpv);
+    const int code = lpv_run_open(s, a, lighting, camera, source->lpv);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    alp_result result = lpv_run_light(source->lpv, NULL);
+    if (result == ALP_OK) {
+        result = alp_field_create_lpv(source->lpv->lpv, &source->field);
+    }
+    return session_end(s, result);
+}
+
 void probes_print(const alp_probes_info *i)
 {
     static const char *const bases[] = {"sh9", "sh4", "ambient-cube"};
@@ -183,6 +212,10 @@ void field_source_clear(field_source *source)
     if (source->flight != NULL) {
         flight_run_close(source->flight);
         free(source->flight);
+    }
+    if (source->lpv != NULL) {
+        lpv_run_close(source->lpv);
+        free(source->lpv);
     }
     *source = (field_source){0};
 }

@@ -4,13 +4,22 @@
 #define COMMAND_FIELDS_H
 
 #include "ambience/flight_run.h"
+#include "lpv/lpv_run.h"
 
 /// The parts behind the field of a command.
 typedef struct field_source {
     alp_field *field;   // owned
     alp_probes *probes; // owned, or NULL
     flight_run *flight; // owned, or NULL
+    lpv_run *lpv;       // owned, or NULL
 } field_source;
+
+/// Models of --with that have options of their own.
+typedef enum field_model { FIELD_OTHER, FIELD_PROBES, FIELD_AMBIENCE, FIELD_LPV } field_model;
+
+/// Refuses options of other models, and those that contradict each other.
+/// @return EXIT_DONE, or EXIT_USAGE after a message
+int field_check(const command_line *arguments, field_model model);
 
 /// Probe options of the arguments: grid, rays, basis, light. `lighting` is copied, not its parts.
 /// @param origin of the scene in the world of its file
@@ -33,6 +42,11 @@ int field_probes(session *s, const command_line *arguments, const alp_lighting_o
 /// @return EXIT_DONE, or an exit code after a message
 int field_ambience(session *s, const command_line *arguments, const alp_lighting_options *lighting,
                    field_source *source);
+/// Makes a volume, lights it once, and makes its field.
+/// @param camera NULL, or the view of a picture
+/// @return EXIT_DONE, or an exit code after a message
+int field_lpv(session *s, const command_line *arguments, const alp_lighting_options *lighting,
+              const alp_camera *camera, field_source *source);
 /// Prints what probes hold, and how good they are.
 void probes_print(const alp_probes_info *info);
 void field_source_clear(field_source *source);

@@ -88,6 +88,18 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                       {"Fly there through a day of 20 seconds, and write a line for each second:",
                        "alpenglow ambience builtin:terrain --sky clear --sun 40,50,80000 --day 20 "
                        "--csv flight.csv"}}},
+    [COMMAND_LPV] =
+        {.failed = "The scene could not be read, nothing lights it, the volume would need too much "
+                   "memory, or a file could not be written.",
+         .files = {{"SCENE", "Scene to light, or a built-in scene."},
+                   {"DIR/slice_x.png, DIR/slice_y.png, DIR/slice_z.png",
+                    "Fluence in the middle layers of the grid (--pictures)."},
+                   {"DIR/view.png", "A view lit by the volume, beside the reference."}},
+         .examples = {{"Measure a frame of light in a hall under a turning sun:",
+                       "alpenglow lpv builtin:atrium --sun 30,60,80000"},
+                      {"Draw the light in three grids inside each other:",
+                       "alpenglow lpv builtin:atrium --sun 30,60,80000 --cascades 3 --frames 1 "
+                       "--pictures slices"}}},
     [COMMAND_SH] = {.failed = "ENV could not be read or is no equirectangular float image, or the "
                               "image could not be written.",
                     .files = {{"ENV", "Environment to project (.hdr or .exr)."},

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { SIDE_LIMIT = 16384 };
+enum { SIDE_LIMIT = 16384, CHANNELS = 4 };
 
 int resolution_read(const command_line *a, uint32_t *out_width, uint32_t *out_height)
 {
@@ -51,4 +51,20 @@ int pictures_folder(const char *folder)
     snprintf(text, sizeof text, "--pictures %.300s: the folder cannot be made: %s", folder,
              errno == EEXIST ? "a file has its name" : strerror(errno));
     return failure(text);
+}
+
+alp_result images_join(alp_context *context, alp_image *const *images, uint32_t count,
+                       alp_image **joined)
+{
+    alp_image_info info = alp_image_get_info(images[0]);
+    const size_t row = (size_t)info.width * CHANNELS;
+    info.width *= count;
+    const alp_result result = alp_image_create(context, info, joined);
+    for (uint32_t y = 0; y < info.height && result == ALP_OK; y++) {
+        for (uint32_t i = 0; i < count; i++) {
+            float *to = alp_image_floats(*joined) + row * ((size_t)y * count + i);
+            memcpy(to, alp_image_floats(images[i]) + row * y, row * sizeof *to);
+        }
+    }
+    return result;
 }

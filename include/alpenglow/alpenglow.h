@@ -14,8 +14,8 @@
 #include <alpenglow/film.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
-#include <alpenglow/lpv.h>
 #include <alpenglow/lightmap.h>
+#include <alpenglow/lpv.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/probes.h>
 #include <alpenglow/render.h>

@@ -34,7 +34,7 @@ typedef enum alp_ambience_lookup {
     /// confidence. The next coarser level provides the confidence that is missing to 1.
     ALP_AMBIENCE_OURS = 0,
     /// The rule of 2006: the nearest anchor of each octant round the node of the point, weighed by
-    /// distance; a coarser level only where there is none. Jumps in space and time.
+    /// distance. Coarser levels count only without any anchor there. Jumps in space and time.
     ALP_AMBIENCE_CONFORMANCE
 } alp_ambience_lookup;
 
@@ -67,8 +67,9 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_create(alp_context *context,
 ALP_API void alp_ambience_destroy(alp_ambience *ambience);
 
 /// Moves to a time: fades new light in and expired light out, prunes branches without light, and
-/// publishes a snapshot. Light that comes before time moves counts at once. If the first light of
-/// a volume comes later, all light fades in from black within 3.3 seconds.
+/// publishes a snapshot. Light that comes before time moves counts at once. So do answers that the
+/// first move of time takes, if readers had no light before. If the first light of a volume comes
+/// later, all light fades in from black within 3.3 seconds.
 /// @param time seconds, finite, not before the last
 /// @return ALP_OK; INVALID_ARGUMENT (nothing changes); OUT_OF_MEMORY (the old snapshot stays);
 ///         LIMIT (readers and fields hold all of 16 snapshots: the old one stays)
@@ -96,7 +97,7 @@ typedef struct alp_ambience_request {
     double position[3]; ///< metres
     double cell;        ///< metres between anchors there
     bool renewal;       ///< it has light, which gets old
-    bool relight;       ///< alone the lighting changed since its rays were traced
+    bool relight;       ///< only the lighting changed since its rays were traced
 } alp_ambience_request;
 
 /// Chooses the next anchor to sample: missing ones round the camera first, coarse before fine, then
@@ -112,7 +113,8 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_next(alp_ambience *ambience,
 /// @return ALP_OK; INVALID_ARGUMENT (not finite; the request is not open: answered, or void)
 ALP_API ALP_NODISCARD alp_result alp_ambience_submit(alp_ambience *ambience, uint64_t id,
                                                      const alp_sh9 *radiance);
-/// The same from six faces of a cube map.
+/// The same from six faces of a cube map. A host that renders one face a frame adds each face by
+/// alp_sh_projection_add. It then submits the sum by alp_ambience_submit.
 /// @param faces +x −x +y −y +z −z, of side × side pixels of radiance, as alp_sh_project_cube reads
 ALP_API ALP_NODISCARD alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id,
                                                            uint32_t side,
@@ -214,10 +216,10 @@ ALP_API alp_ambience_sampler_options alp_ambience_sampler_options_default(void);
 
 /// Moves the centre of the volume by .4 of the finest cell, unless it was updated before. Floors
 /// and walls often lie at whole metres, and anchors on surfaces count as solid. On a floor at y = 0
-/// the error was twice as large without it.
+/// the error was twice as large without it. A volume has one sampler at a time.
 /// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene; no such
-///         lamp: the message says how many there are); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer
-///         fails)
+///         lamp: the message says how many there are; the volume has a sampler); OUT_OF_MEMORY;
+///         UNSUPPORTED (the ray tracer fails)
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_create(
     alp_ambience *ambience, const alp_scene *scene, const alp_ambience_sampler_options *options,
     alp_ambience_sampler **sampler);
@@ -260,7 +262,8 @@ ALP_API ALP_NODISCARD alp_result alp_ambience_sample(alp_ambience_sampler *sampl
 /// of the first seconds fades in, and bounces arrive with renewals.
 /// @param time    as of alp_ambience_update; the first, or before it
 /// @param bounces times that all anchors are lit; 5 are enough for most scenes
-/// @return as alp_ambience_sample; INVALID_ARGUMENT also where time has moved
+/// @return as alp_ambience_sample; INVALID_ARGUMENT also if time has moved, or `time` is
+///         not that of the first update
 ALP_API ALP_NODISCARD alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
                                                            const alp_ambience_camera *camera,
                                                            double time, uint32_t bounces);
@@ -271,9 +274,10 @@ ALP_API ALP_NODISCARD alp_result alp_field_create_ambience(alp_ambience *ambienc
                                                            alp_field **field);
 
 /// A field of lamps that a host dims or switches: E = E_all + Σ (strength − 1) E_layer, at least 0.
-/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes
-/// add up exactly where they have the same options, anchors and ages. The field reads the
-/// snapshots of the last updates, and keeps them until it is destroyed.
+/// Each layer is a volume of the light of one lamp (alp_ambience_sampler_options.light). Volumes of
+/// the same options, anchors and ages add up within about .2 %. While light fades, they also differ
+/// by fades of their own lengths. The field reads the snapshots of the last updates, and keeps them
+/// until it is destroyed.
 /// @param layers    [count]   @param strengths [count] finite, ≥ 0: 0 = off, 1 = as lit
 /// @return ALP_OK; INVALID_ARGUMENT (a volume is NULL, or a strength out of range); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_field_create_ambience_layers(alp_ambience *all,

@@ -59,8 +59,8 @@ typedef struct alp_lpv_options {
 } alp_lpv_options;
 ALP_API alp_lpv_options alp_lpv_options_default(void);
 
-/// Bytes that a volume of these options holds: 192 a cell. With blockers 84 more a cell, and 56 for
-/// each corner of cells.
+/// Bytes that a volume of these options holds: about 200 a cell. With blockers 212 more for each
+/// corner of cells.
 ALP_API uint64_t alp_lpv_memory(const alp_lpv_options *options);
 
 /// @param options NULL = defaults

@@ -8,6 +8,7 @@
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>
+#include <alpenglow/lpv.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/probes.h>
 #include <alpenglow/scene.h>
@@ -107,6 +108,18 @@ typedef struct alp_render_options {
     bool no_next_event;     ///< REFERENCE: rays are never aimed at lights. A slow cross-check that
                             ///< never finds lights without extent.
     const alp_field *field; ///< FIELD: made of this scene's light
+    const alp_lpv *lpv; ///< FIELD: the volume of `gloss` and `scattering`; NULL (default) without
+    /// FIELD: surfaces mirror the light of `lpv`; default false. v points to the camera, r is v
+    /// mirrored at the normal n, Lmirrored is alp_lpv_radiance along r, Schlick's F has F0 = .04,
+    /// or the base colour of a metal:
+    ///     L = Le + (1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
+    bool gloss;
+    /// FIELD: coefficient S [m⁻¹] ≥ 0 of a medium in the bounds of the scene, which scatters light
+    /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`
+    /// and, unless without_direct, of lamps and suns, with shadows:
+    ///     L = ∫ S e^(−S t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
+    /// Light is dimmed on its way to the camera alone. By 32 steps a camera ray.
+    float scattering;
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from
     /// punctual lamps and suns. A field that holds that light keeps it. Default false.
     bool without_direct;
@@ -121,6 +134,13 @@ typedef struct alp_render_options {
 } alp_render_options;
 ALP_API alp_render_options alp_render_options_default(void);
 
+/// The camera that alp_render takes with these options: `camera`, or the one of `camera_index`.
+/// @param options  NULL = defaults   @param camera out
+/// @return ALP_OK; OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails); CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_render_find_camera(const alp_scene *scene,
+                                                        const alp_render_options *options,
+                                                        alp_camera *camera);
+
 /// Renders linear radiance (AO: accessibility) as float RGBA. Alpha is 0 if no surface is visible.
 /// Without a sky, panes of REFERENCE, RADIOSITY and LIGHTMAP in front of nothing have the alpha
 /// that they absorb. With a sky, alpha of these three is 1 everywhere.
@@ -129,7 +149,8 @@ ALP_API alp_render_options alp_render_options_default(void);
 /// without light. REFERENCE, RADIOSITY and HEMICUBE give the warnings of alp_scene_examine.
 /// @param image out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT (also a pattern without a match; LIGHTMAP without a map of
-///         light; FIELD without a field; an object without a radius; REFERENCE, RADIOSITY, and
+///         light; FIELD without a field, or with gloss or scattering and
+///         without a volume; an object without a radius; REFERENCE, RADIOSITY, and
 ///         HEMICUBE with light, of a scene without lamp, emission and sky); OUT_OF_MEMORY;
 ///         CANCELLED; RADIOSITY and HEMICUBE: as alp_atlas_create
 ALP_API ALP_NODISCARD alp_result alp_render(const alp_scene *scene,

@@ -10,6 +10,8 @@
 #include <string.h>
 
 enum { DISK_SAMPLES = 4 };
+/// Share of light that a dielectric mirrors head-on: a refractive index of 1.5.
+static const float DIELECTRIC = 0.04f;
 
 /// The bits of a position, which key the places on a sun's disk.
 static uint32_t key_of(const float position[3])
@@ -38,7 +40,8 @@ static void aim_lamp(const alpi_field_light *l, uint32_t lamp, uint32_t sample, 
         if (!alpi_lighting_sample_light(l->lamps, lamp, p, u, &s)) {
             continue;
         }
-        const float offset = points->offsets[i], cosine = vec3_dot(n, s.direction);
+        const float offset = points->offsets[i];
+        const float cosine = points->in_air ? 1.0f : vec3_dot(n, s.direction);
         const float reach = s.distance * (1.0f - 1e-5f) - 2.0f * offset;
         if (cosine > 0.0f && reach > 0.0f) {
             to->light[i] = vec3_scale(s.light, cosine * share / s.density);
@@ -74,20 +77,67 @@ static void add_free(const alpi_field_light *l, lamp_rays *to, float (*irradianc
     }
 }
 
-void alpi_field_light_at(const alpi_field_light *l, const alpi_field_points *points,
-                         float (*irradiance)[3])
+void alpi_field_light_add_lamps(const alpi_field_light *l, const alpi_field_points *points,
+                                float (*irradiance)[3])
 {
     const uint32_t lamps = l->lamps != NULL ? alpi_lighting_light_count(l->lamps) : 0;
-    alp_field_irradiance(l->field, points->count, (const float(*)[3])points->positions,
-                         (const float(*)[3])points->normals, irradiance);
     for (uint32_t k = 0; k < lamps; k++) {
         const bool disk = alpi_lighting_light(l->lamps, k)->size > 0.0f;
-        const uint32_t samples = disk ? DISK_SAMPLES : 1;
+        const uint32_t samples = disk && !points->in_air ? DISK_SAMPLES : 1;
         for (uint32_t s = 0; s < samples; s++) {
             lamp_rays to;
             aim_lamp(l, k, s, 1.0f / (float)samples, points, &to);
             add_free(l, &to, irradiance);
         }
+    }
+}
+
+void alpi_field_light_at(const alpi_field_light *l, const alpi_field_points *points,
+                         float (*irradiance)[3])
+{
+    alp_field_irradiance(l->field, points->count, (const float(*)[3])points->positions,
+                         (const float(*)[3])points->normals, irradiance);
+    alpi_field_light_add_lamps(l, points, irradiance);
+}
+
+/// Schlick's approximation of the share that a surface mirrors: .04 of a dielectric head-on, the
+/// base colour of a metal.
+/// Based on: C. Schlick. An Inexpensive BRDF Model for Physically-based Rendering. 1994.
+static vec3 find_fresnel(const alp_scene *scene, const alpi_surface_point *p, vec3 albedo,
+                         float cosine)
+{
+    const float metallic = alpi_surface_metallic(scene, p->triangle, p->b1, p->b2);
+    const float dull = 1.0f - fminf(fmaxf(cosine, 0.0f), 1.0f);
+    const float grazing = dull * dull * dull * dull * dull;
+    const float base[3] = {albedo.x, albedo.y, albedo.z};
+    float share[3];
+    for (int k = 0; k < 3; k++) {
+        const float ahead = DIELECTRIC + metallic * (base[k] - DIELECTRIC);
+        share[k] = ahead + grazing * (1.0f - ahead);
+    }
+    return vec3_load(share);
+}
+
+/// Exchanges a share of diffuse light for the light that comes along the mirrored ray.
+static void add_gloss(const alpi_field_light *l, const alpi_field_points *at,
+                      const alpi_surface_point *points, vec3 *radiance)
+{
+    float directions[ALPI_PACKET][3], mirrored[ALPI_PACKET][3];
+    for (uint32_t i = 0; i < at->count; i++) {
+        const vec3 n = vec3_load(at->normals[i]), v = points[i].toward;
+        vec3_store(directions[i], vec3_mad(vec3_scale(v, -1.0f), 2.0f * vec3_dot(n, v), n));
+    }
+    alp_lpv_radiance(l->gloss, at->count, (const float(*)[3])at->positions,
+                     (const float(*)[3])directions, mirrored);
+    for (uint32_t i = 0; i < at->count; i++) {
+        const alpi_surface_point *p = &points[i];
+        const vec3 color = alpi_surface_albedo(l->scene, p->triangle, p->b1, p->b2);
+        const float cosine = vec3_dot(vec3_load(at->normals[i]), p->toward);
+        const vec3 f = find_fresnel(l->scene, p, color, cosine);
+        const float kept = alpi_surface_pane(l->scene, p->triangle, p->b1, p->b2).kept;
+        radiance[i].x += f.x * (kept * mirrored[i][0] - radiance[i].x);
+        radiance[i].y += f.y * (kept * mirrored[i][1] - radiance[i].y);
+        radiance[i].z += f.z * (kept * mirrored[i][2] - radiance[i].z);
     }
 }
 
@@ -117,6 +167,9 @@ static void reflect(const void *user, const alpi_surface_point *points, uint32_t
         const float share = kept * (float)(1.0 / ALPI_PI);
         radiance[i] = (vec3){share * albedo.x * e[i][0], share * albedo.y * e[i][1],
                              share * albedo.z * e[i][2]};
+    }
+    if (l->gloss != NULL) {
+        add_gloss(l, &at, points, radiance);
     }
 }
 

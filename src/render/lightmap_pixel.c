@@ -14,20 +14,37 @@ static float add_background(const alpi_gather_scene *from, vec3 direction, vec3 
     return lit ? 1.0f : 1.0f - (open.x + open.y + open.z) / 3.0f;
 }
 
-void alpi_lightmap_pixel(const alpi_gather_scene *from, const alpi_view *view, uint32_t samples,
+/// Puts a medium before what rays have met: `left` of its light goes through.
+static void add_air(vec3 scattered, float left, vec3 *radiance, float *covered)
+{
+    *radiance = vec3_mad(scattered, left, *radiance);
+    *covered = 1.0f - (1.0f - *covered) * left;
+}
+
+void alpi_lightmap_pixel(const alpi_shown *shown, const alpi_view *view, uint32_t samples,
                          uint32_t key, uint32_t index, float pixel[4])
 {
+    const alpi_gather_scene *from = &shown->surfaces;
+    const bool misty = shown->air.scattering > 0.0f;
     double sum[3] = {0.0, 0.0, 0.0}, covered = 0.0;
     alpi_rays rays;
     alpi_rays_clear(&rays);
     for (uint32_t first = 0; first < samples; first += ALPI_PACKET) {
         const uint32_t rest = samples - first, lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
-        vec3 radiance[ALPI_PACKET], open[ALPI_PACKET];
+        vec3 radiance[ALPI_PACKET], open[ALPI_PACKET], scattered[ALPI_PACKET];
+        float left[ALPI_PACKET];
         view->loops->packet(view, index, key, first, &rays);
+        if (misty) {
+            alpi_air_along(&shown->air, &rays, (1u << lanes) - 1u, key, first, scattered, left);
+        }
         alpi_gather_look(from, &rays, (1u << lanes) - 1u, true, radiance, open);
         for (uint32_t i = 0; i < lanes; i++) { // panes move origins and no directions
             const vec3 direction = {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
-            covered += (double)add_background(from, direction, open[i], &radiance[i]);
+            float filled = add_background(from, direction, open[i], &radiance[i]);
+            if (misty) {
+                add_air(scattered[i], left[i], &radiance[i], &filled);
+            }
+            covered += (double)filled;
             sum[0] += (double)radiance[i].x;
             sum[1] += (double)radiance[i].y;
             sum[2] += (double)radiance[i].z;

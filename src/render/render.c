@@ -45,7 +45,7 @@ typedef struct render_job {
     alpi_reference reference;
     alpi_solution *solution;  // of RADIOSITY, else NULL
     alpi_surface_light known; // of the solution
-    alpi_gather_scene shown;  // of LIGHTMAP and FIELD
+    alpi_shown shown;         // of LIGHTMAP and FIELD
     alpi_lighting *first;     // light without lamps, where surfaces in view get none of theirs
     alpi_field_light field;   // of FIELD
     alp_image *image, *error; // error: NULL unless asked for
@@ -98,6 +98,13 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     if (o->method == ALP_RENDER_FIELD && o->field == NULL) {
         return alpi_fail(scene->context, code, "render: there is no field");
     }
+    if (!(o->scattering >= 0.0f) || !isfinite(o->scattering)) {
+        return alpi_fail(scene->context, code, "render: a medium of scattering %g, need >= 0",
+                         (double)o->scattering);
+    }
+    if (o->method == ALP_RENDER_FIELD && (o->gloss || o->scattering > 0.0f) && o->lpv == NULL) {
+        return alpi_fail(scene->context, code, "render: gloss and scattering need a volume, lpv");
+    }
     const alp_render_object *object = &o->object;
     if (object->kind != ALP_OBJECT_NONE && !(object->radius > 0.0f && isfinite(object->radius) &&
                                              vec3_is_finite(vec3_load(object->position)))) {
@@ -131,15 +138,26 @@ static alp_result check_lit(const render_job *job)
                                       : ALP_OK;
 }
 
+alp_result alp_render_find_camera(const alp_scene *scene, const alp_render_options *options,
+                                  alp_camera *camera)
+{
+    if (scene == NULL || camera == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    const alp_render_options o = options ? *options : alp_render_options_default();
+    if (o.camera.vertical_fov != 0.0f) {
+        *camera = o.camera;
+        return ALP_OK;
+    }
+    return alpi_camera_choose(scene, o.camera_index, o.progress, o.progress_user, camera);
+}
+
 /// The camera that was given, or that of the scene.
 static alp_result place_camera(render_job *job)
 {
     const alp_render_options *o = &job->options;
-    alp_camera camera = o->camera;
-    if (camera.vertical_fov == 0.0f) {
-        ALP_TRY(alpi_camera_choose(job->scene, o->camera_index, o->progress, o->progress_user,
-                                   &camera));
-    }
+    alp_camera camera;
+    ALP_TRY(alp_render_find_camera(job->scene, o, &camera));
     ALP_TRY(alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view));
     if (o->method == ALP_RENDER_HEMICUBE) {
         const float size = vec3_length(vec3_sub(job->scene->bounds_max, job->scene->bounds_min));
@@ -359,12 +377,12 @@ static alp_result choose_occluders(render_job *job)
 /// What LIGHTMAP reads.
 static void prepare_lightmap(render_job *job)
 {
-    job->shown = (alpi_gather_scene){.scene = job->scene,
-                                     .tracer = job->tracer,
-                                     .lighting = job->lighting,
-                                     .filter = job->occlusion.filter,
-                                     .light = alpi_lightmap_light(job->options.lightmap),
-                                     .emitters = true};
+    job->shown.surfaces = (alpi_gather_scene){.scene = job->scene,
+                                              .tracer = job->tracer,
+                                              .lighting = job->lighting,
+                                              .filter = job->occlusion.filter,
+                                              .light = alpi_lightmap_light(job->options.lightmap),
+                                              .emitters = true};
 }
 
 /// What FIELD reads.
@@ -376,13 +394,15 @@ static void prepare_field(render_job *job)
                                     .tracer = job->tracer,
                                     .filter = job->occlusion.filter,
                                     .field = field,
-                                    .lamps = lamps ? job->lighting : NULL};
-    job->shown = (alpi_gather_scene){.scene = job->scene,
-                                     .tracer = job->tracer,
-                                     .lighting = job->lighting,
-                                     .filter = job->occlusion.filter,
-                                     .light = alpi_field_light_surfaces(&job->field),
-                                     .emitters = true};
+                                    .lamps = lamps ? job->lighting : NULL,
+                                    .gloss = job->options.gloss ? job->options.lpv : NULL};
+    job->shown.surfaces = (alpi_gather_scene){.scene = job->scene,
+                                              .tracer = job->tracer,
+                                              .lighting = job->lighting,
+                                              .filter = job->occlusion.filter,
+                                              .light = alpi_field_light_surfaces(&job->field),
+                                              .emitters = true};
+    job->shown.air = (alpi_air){&job->field, job->options.lpv, job->options.scattering};
 }
 
 /// What the paths of RADIOSITY end with.

@@ -26,8 +26,8 @@ run_consumer() { # program, folder to run in
     [ -s "$2/cornell.glb" ] || fail "the program wrote no file"
 }
 
-run_examples() { # folder with the six programs, their names
-    local folder=$1 points=$2 bake=$3 maps=$4 light=$5 probes=$6 ambience=$7
+run_examples() { # folder with the seven programs, their names
+    local folder=$1 points=$2 bake=$3 maps=$4 light=$5 probes=$6 ambience=$7 lpv=$8
     cd "$folder"
     "./$points" >points.txt || fail "$points failed"
     awk 'NR > 1 { n++; if ($5 * $5 > 0.005 * 0.005 || $3 - $4 > 0.005 || $4 - $3 > 0.005) bad = 1 }
@@ -58,6 +58,10 @@ run_examples() { # folder with the six programs, their names
     "./$ambience" >ambience.txt || fail "$ambience failed"
     awk '$6 != "lit" || $8 < 5000 || $8 > 40000 || ($8 - $13) ^ 2 > 1 || $3 < 500 { bad = 1 }
          END { exit bad || NR != 3 }' ambience.txt || fail "$ambience is off: $(cat ambience.txt)"
+    # a ceiling four cells above the floor: propagation gives .7 of the closed form
+    "./$lpv" >lpv.txt || fail "$lpv failed"
+    awk '{ share = $8 / $NF; if (share < .5 || share > 1.2) bad = 1 } END { exit bad || NR != 3 }' \
+        lpv.txt || fail "$lpv is off: $(cat lpv.txt)"
     cd - >/dev/null
 }
 
@@ -113,11 +117,11 @@ examples)
     done
     # CMake's programs know where the library is, a compiler's do not.
     (export LD_LIBRARY_PATH=$libraries && run_examples "$work/examples" points bake maps light probes \
-        ambience)
+        ambience lpv)
     cmake -S "$examples" -B "$work/examples/build" -DCMAKE_PREFIX_PATH="$prefix"
     cmake --build "$work/examples/build"
     run_examples "$work/examples/build" 01_occlusion_at_points 02_bake_a_file 03_maps_as_arrays \
-        04_light_a_scene 06_probes 07_ambience
+        04_light_a_scene 06_probes 07_ambience 08_lpv
     ;;
 manual)
     share=$(dirname "$(find "$prefix" -name man -type d)")

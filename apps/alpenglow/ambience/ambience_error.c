@@ -53,10 +53,10 @@ alp_result ambience_error_measure(const ambience_error *e, flight_run *run,
     o.progress = flight_run_progress;
     o.progress_user = run;
     *percent = (double)NAN;
-    alp_result result = alp_scene_free_points_near(scene, centre, RADIUS, e->seed + second, POINTS,
-                                                   p.positions, p.normals);
-    if (result ==
-        ALP_ERROR_INVALID_ARGUMENT) { // no free point so near: the camera may be far outside
+    alp_result result =
+        alp_scene_free_points_near(scene, centre, RADIUS, e->seed, POINTS, p.positions, p.normals);
+    // Without a free point so near, there is no error: the camera may be far outside.
+    if (result == ALP_ERROR_INVALID_ARGUMENT) {
         return ALP_OK;
     }
     if (result == ALP_OK) {

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME_SIZE = 32, TILE_SIDE = 192, CHANNELS = 4 };
+enum { NAME_SIZE = 32, TILE_SIDE = 192 };
 
 // --- files ---------------------------------------------------------------------------------------
 
@@ -86,23 +86,6 @@ static alp_result render_volume(const ambience_pictures *p, alp_render_options *
     return result;
 }
 
-/// Images of equal size side by side.
-static alp_result join(alp_context *context, alp_image *const *images, uint32_t count,
-                       alp_image **joined)
-{
-    alp_image_info info = alp_image_get_info(images[0]);
-    const size_t row = (size_t)info.width * CHANNELS;
-    info.width *= count;
-    const alp_result result = alp_image_create(context, info, joined);
-    for (uint32_t y = 0; y < info.height && result == ALP_OK; y++) {
-        for (uint32_t i = 0; i < count; i++) {
-            float *to = alp_image_floats(*joined) + row * ((size_t)y * count + i);
-            memcpy(to, alp_image_floats(images[i]) + row * y, row * sizeof *to);
-        }
-    }
-    return result;
-}
-
 /// Develops and saves. @param adapted NULL: the exposure fits this picture alone
 static alp_result save(const ambience_pictures *p, const alp_image *linear, const char *path,
                        alp_film_adaptation *adapted)
@@ -156,7 +139,7 @@ static alp_result write_frame(ambience_pictures *p, const flight_frame *frame, c
         result = render_volume(p, &o, &halves[0]);
     }
     if (result == ALP_OK) {
-        result = join(p->run->session->context, halves, 2, &joined);
+        result = images_join(p->run->session->context, halves, 2, &joined);
     }
     if (result == ALP_OK) {
         result = save(p, joined, path, &p->adapted);
@@ -221,7 +204,7 @@ int ambience_pictures_finish(ambience_pictures *p)
     }
     alp_image *joined = NULL;
     char *path = pictures_path(p->folder, "preview");
-    alp_result result = join(p->run->session->context, p->tiles, p->tile_count, &joined);
+    alp_result result = images_join(p->run->session->context, p->tiles, p->tile_count, &joined);
     if (result == ALP_OK) {
         result = save(p, joined, path, NULL);
     }

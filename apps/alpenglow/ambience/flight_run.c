@@ -54,7 +54,6 @@ int flight_run_refuse(const command_line *a)
                {"--fps", OPTION_FPS},
                {"--budget", OPTION_BUDGET},
                {"--budget-ms", OPTION_BUDGET_MS},
-               {"--cell", OPTION_CELL},
                {"--depth", OPTION_DEPTH},
                {"--anchors", OPTION_ANCHORS},
                {"--lifetime", OPTION_LIFETIME},

@@ -6,7 +6,8 @@
 #include "options/options.h"
 
 #define RAY_COMMANDS (IN_BAKE | IN_RENDER)
-#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE)
+#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE | IN_LPV)
+#define SKY_COMMANDS (LIGHT_COMMANDS & ~IN_LPV)
 #define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
 typedef struct option_part {
@@ -21,6 +22,7 @@ extern const option_part option_part_picture;
 extern const option_part option_part_light;
 extern const option_part option_part_space;
 extern const option_part option_part_ambience;
+extern const option_part option_part_lpv;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_later;

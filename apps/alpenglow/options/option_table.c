@@ -4,9 +4,9 @@
 
 /// In the order of help and completion.
 static const option_part *const parts[] = {
-    &option_part_output, &option_part_what,    &option_part_space, &option_part_ambience,
-    &option_part_stop,   &option_part_picture, &option_part_light, &option_part_ao,
-    &option_part_run,    &option_part_later,
+    &option_part_output, &option_part_what, &option_part_space,   &option_part_ambience,
+    &option_part_lpv,    &option_part_stop, &option_part_picture, &option_part_light,
+    &option_part_ao,     &option_part_run,  &option_part_later,
 };
 
 /// Options of alpenglow itself, without a command.
@@ -29,6 +29,7 @@ static const char *const group_titles[GROUP_COUNT] = {
     [GROUP_OUTPUT] = "Output",
     [GROUP_WHAT] = "Main",
     [GROUP_FLIGHT] = "Flight of ambience",
+    [GROUP_VOLUME] = "Light propagation",
     [GROUP_PICTURE] = "Picture",
     [GROUP_AO] = "Ambient occlusion",
     [GROUP_LIGHT] = "Light",

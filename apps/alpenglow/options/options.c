@@ -99,7 +99,9 @@ const char *number_parse_list(const char *text, double *numbers, int count)
 void option_range(const option *o, char *text, size_t size)
 {
     // %.16g prints whole numbers in full, and 1e-06 short.
-    int length = snprintf(text, size, "%.16g to %.16g", o->minimum, o->maximum);
+    int length = o->minimum < o->maximum
+                     ? snprintf(text, size, "%.16g to %.16g", o->minimum, o->maximum)
+                     : snprintf(text, size, "%.16g", o->minimum);
     if (o->unit != NULL && length > 0 && (size_t)length < size) {
         length += snprintf(text + length, size - (size_t)length, " %s", o->unit);
     }

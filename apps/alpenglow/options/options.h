@@ -18,11 +18,11 @@ typedef enum command_id {
     COMMAND_SAMPLE,
     COMMAND_PROBES,
     COMMAND_AMBIENCE,
+    COMMAND_LPV,
     COMMAND_SH,
     COMMAND_BENCH,
     COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
-    COMMAND_LPV = COMMAND_BUILT_COUNT,
-    COMMAND_VIEW,
+    COMMAND_VIEW = COMMAND_BUILT_COUNT,
     COMMAND_COUNT
 } command_id;
 
@@ -34,6 +34,7 @@ enum {
     IN_SAMPLE = 1 << COMMAND_SAMPLE,
     IN_PROBES = 1 << COMMAND_PROBES,
     IN_AMBIENCE = 1 << COMMAND_AMBIENCE,
+    IN_LPV = 1 << COMMAND_LPV,
     IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
 };
@@ -85,6 +86,15 @@ typedef enum option_id {
     OPTION_PREVIEW,
     OPTION_ERRORS,
     OPTION_REFERENCE_SAMPLES,
+    OPTION_GRID,
+    OPTION_CASCADES,
+    OPTION_ITERATIONS,
+    OPTION_MODE,
+    OPTION_BLOCKERS,
+    OPTION_FRAMES,
+    OPTION_SUN_TURN,
+    OPTION_GLOSS,
+    OPTION_MEDIA,
     OPTION_AO_SAMPLES,
     OPTION_AO_DISTANCE,
     OPTION_AO_FALLOFF,
@@ -158,6 +168,7 @@ typedef enum option_group {
     GROUP_OUTPUT,
     GROUP_WHAT,
     GROUP_FLIGHT,
+    GROUP_VOLUME,
     GROUP_PICTURE,
     GROUP_AO,
     GROUP_LIGHT,
@@ -282,6 +293,7 @@ int command_compare(const command_line *arguments);
 int command_sample(const command_line *arguments);
 int command_probes(const command_line *arguments);
 int command_ambience(const command_line *arguments);
+int command_lpv(const command_line *arguments);
 int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
 

@@ -84,7 +84,7 @@ static const option rows[] = {
      .help = "The sun makes a whole day in this time. --sun is its place at noon, when the flight "
              "begins. --sky clear follows it."},
     {.id = OPTION_CELL,
-     .commands = FLIGHT_COMMANDS,
+     .commands = IN_AMBIENCE,
      .group = GROUP_FLIGHT,
      .kind = KIND_REAL,
      .name = "--cell",
@@ -148,7 +148,8 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "off",
-     .help = "Anchors in one layer above the ground, instead of a volume."},
+     .help = "Anchors in one layer above the ground, instead of a volume. For open country: a roof "
+             "counts as ground."},
     {.id = OPTION_VISIBILITY,
      .commands = FLIGHT_COMMANDS,
      .group = GROUP_FLIGHT,

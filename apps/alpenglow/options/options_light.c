@@ -153,7 +153,7 @@ static const option rows[] = {
              "vScale = -1 in Babylon.js.\n"
              "hdr: Radiance RGBE, 8 bits and an exponent."},
     {.id = OPTION_BOUNCES,
-     .commands = LIGHT_COMMANDS & ~IN_AMBIENCE,
+     .commands = LIGHT_COMMANDS & ~(IN_AMBIENCE | IN_LPV),
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--bounces",
@@ -180,7 +180,7 @@ static const option rows[] = {
              "black: base colour x (1 - metallic). Viewers that multiply a light map by "
              "their diffuse colour show metals black either way."},
     {.id = OPTION_SKY,
-     .commands = LIGHT_COMMANDS,
+     .commands = SKY_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sky",
@@ -191,7 +191,7 @@ static const option rows[] = {
              "R,G,B/R,G,B: radiance above and below the horizon.\n"
              "clear: a clear sky around the --sun, which it needs."},
     {.id = OPTION_SKY_TURN,
-     .commands = LIGHT_COMMANDS,
+     .commands = SKY_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_REAL,
      .name = "--sky-turn",
@@ -202,7 +202,7 @@ static const option rows[] = {
      .initial = "0",
      .help = "Turn of the sky image, counter-clockwise from above."},
     {.id = OPTION_SKY_STRENGTH,
-     .commands = LIGHT_COMMANDS,
+     .commands = SKY_COMMANDS,
      .group = GROUP_LIGHT,
      .kind = KIND_REAL,
      .name = "--sky-strength",

@@ -10,8 +10,7 @@ static const option rows[] = {
      .name = "--with",
      .value = "METHOD",
      .choices = "ao|albedo|reference|lightmap|radiosity|hemicube|constant|hemisphere|ground-map|"
-                "ambient-cube|environment|probes|ambience",
-     .later_choices = "lpv",
+                "ambient-cube|environment|probes|ambience|lpv",
      .help = "Method of rendering, required. reference, radiosity, lightmap and the models of "
              "ambient light see through blended and transmissive surfaces; the others cut them at "
              "alpha 0.5 or take them as opaque.\n"
@@ -30,11 +29,12 @@ static const option rows[] = {
              "probes: light probes, from --probes FILE or baked with --spacing.\n"
              "ambience: the live volume after a flight (--path, --time), from its camera unless "
              "--camera is given.\n"
+             "lpv: light propagated through a grid of cells, without precomputation (--grid).\n"
              "constant, hemisphere, ground-map, ambient-cube, environment: classic models of "
              "ambient light, fitted to the scene's light (see sample). Light straight from "
              "lamps and suns is added at each pixel, with shadows (--direct)."},
     {.id = OPTION_CAMERA,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_LPV,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--camera",

@@ -8,13 +8,15 @@ static const option rows[] = {
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--with",
-     .value = "reference|probes|ambience|constant|hemisphere|ground-map|ambient-cube|environment",
-     .choices = "constant|hemisphere|ground-map|ambient-cube|environment|probes|reference|ambience",
-     .later_choices = "lpv",
+     .value = "reference|probes|ambience|lpv|constant|hemisphere|ground-map|ambient-cube|"
+              "environment",
+     .choices = "constant|hemisphere|ground-map|ambient-cube|environment|probes|reference|ambience|"
+                "lpv",
      .help = "Model of the light, required.\n"
              "reference: path tracing, the truth.\n"
              "probes: a grid of light probes, from --probes FILE or baked with --spacing.\n"
              "ambience: the live volume after a flight (--path, --time).\n"
+             "lpv: light propagated through a grid of cells, without precomputation (--grid).\n"
              "constant: one colour for the whole scene.\n"
              "hemisphere: one colour from above and one from below.\n"
              "ground-map: the same, and the light that the ground below sends up.\n"

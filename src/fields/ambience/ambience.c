@@ -9,6 +9,9 @@
 enum { DEPTH_MOST = 10, ANCHORS_LEAST = 64, ANCHORS_MOST = 1 << 20 };
 /// Nodes for each anchor that may be held, besides one chain of blocks.
 enum { NODES_EACH = 3 };
+/// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
+/// half a per cent a frame. A renewal and a new finer anchor at the same place together make 1 %.
+static const float FADE_RATE = 0.3f;
 
 alp_ambience_options alp_ambience_options_default(void)
 {
@@ -107,7 +110,8 @@ static alp_result create(alp_ambience *a)
     alpi_lights_open(a->context, o->visibility, &a->nexts);
     a->free_anchor = ALPI_NO_ANCHOR;
     a->plan_age = UINT32_MAX / 2;
-    a->rate = 1e6; // until hosts show otherwise
+    a->fade_rate = FADE_RATE;
+    a->rate = 1e6; // until it is measured
     for (int k = 0; k < 3; k++) {
         a->bounds_min[k] = -HUGE_VAL;
         a->bounds_max[k] = HUGE_VAL;
@@ -191,9 +195,11 @@ alp_result alp_ambience_update(alp_ambience *ambience, double time)
                          time, a->time);
     }
     const double step = isnan(a->time) ? 0.0 : time - a->time;
+    const bool dark = !(alpi_ambience_published(a)->dawn > 0.0f);
     a->first_time = isnan(a->time) ? time : a->first_time;
-    a->time = time;
+    a->time = dark && !isnan(a->time) ? a->time : time; // no light is visible that could jump
     ALP_TRY(alpi_requests_collect(a));
+    a->time = time;
     alpi_anchors_step(a, step);
     alpi_graph_prune(&a->graph);
     ALP_TRY(alpi_ambience_compact(a));

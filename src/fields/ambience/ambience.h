@@ -2,8 +2,8 @@
 // The live ambience volume: what its files share.
 //
 // The graph (ambience_graph.h) says where anchors are. The anchors (ambience_anchors.c) hold light
-// and fade it. Requests (ambience_requests.c) bring it. The plan (ambience_plan.c) says where to
-// sample next. Readers see none of these: each update copies them to a snapshot
+// and fade it. Requests (ambience_requests.c) deliver light. The plan (ambience_plan.c) says where
+// to sample next. Readers see none of these: each update copies them to a snapshot
 // (ambience_snapshot.h).
 #ifndef ALPI_FIELDS_AMBIENCE_H
 #define ALPI_FIELDS_AMBIENCE_H
@@ -42,7 +42,7 @@ typedef struct alpi_anchor {
     float confidence;      // [0, 1]
     float confidence_rate; // 1/s, below 0 while leaving
     float open;            // what `closed` leaves of its weight: 1: no solid; 0: solid
-    float closed;          // [0, 1]: share of the fade to a solid; above 0 without light alone
+    float closed;          // [0, 1]: share of the fade to a solid; above 0 only without light
     float solid_rate;      // 1/s of that fade
     float change;          // relative change of E at its last renewal
     double born;           // when its newest light was sampled
@@ -80,12 +80,13 @@ struct alp_ambience {
     alpi_request_slot *slots;
     uint64_t slot_serial;
     bool requests_open;
-    _Atomic(alpi_face_table *) face_tables; // a list that grows alone, by any thread
+    _Atomic(alpi_face_table *) face_tables; // a list that only grows, by any thread
 
     double time, first_time;          // NaN before the first update
     float base[ALPI_AMBIENCE_FLOATS]; // light where no anchor has any: follows their mean
     float mean;                       // E of the mean of all anchors
     float dawn;                       // [0, 1]: share of all light that is there
+    float fade_rate;                  // 1/s: largest change of E that a fade makes, over the mean E
     alpi_snapshots snapshots;
 
     alpi_wish *wishes; // sorted, most urgent last
@@ -95,9 +96,10 @@ struct alp_ambience {
     double planned_time;    // of that; NaN before
     double planned_from[3]; // where the camera was
     double velocity[3];     // of the camera, smoothed
-    double rate;            // anchors per second that can be sampled, as far as was seen
+    double rate;            // anchors per second that can be sampled, as far as measured
     uint32_t taken;         // anchors sampled since the last update
     uint64_t hit_bytes;     // memory of kept hits
+    const alp_ambience_sampler *sampler;                            // NULL: none
     void (*drop_hits)(alp_ambience *ambience, alpi_anchor *anchor); // NULL: none are kept
 };
 
@@ -112,6 +114,12 @@ bool alpi_ambience_index(const alp_ambience *ambience, uint32_t level, const dou
 static inline double alpi_ambience_cell(const alp_ambience *ambience, uint32_t level)
 {
     return ambience->unit * (double)alpi_graph_width(level);
+}
+
+/// What readers see.
+static inline const alp_ambience_snapshot *alpi_ambience_published(const alp_ambience *ambience)
+{
+    return ambience->snapshots.all[atomic_load(&ambience->snapshots.current)];
 }
 
 // --- anchors -------------------------------------------------------------------------------------

@@ -6,15 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-/// Largest change of E per second that a fade makes, of the mean E. At 60 frames a second this is
-/// half a per cent a frame; a renewal and a new finer anchor at the same place together make one.
-static const float FADE_RATE = 0.3f;
 /// Steepness of the fade of a solid: see solid_openness.
 static const float SOLID_STEEPNESS = 8.0f, INVERSE_E = 0.36787944f;
 /// Geometry changes seldom: solids are valid for so many lifetimes.
 static const double SOLID_LIFETIMES = 4.0;
-/// Change of E by new lighting, over the mean, from which an anchor is lit once more: what bounced
-/// to it came from anchors that had the old light.
+/// Change of E by new lighting, over the mean, from which an anchor is lit once more. Its bounced
+/// light came from anchors that had the old light.
 static const float BOUNCE_CHANGE = 0.01f;
 
 // --- pool ----------------------------------------------------------------------------------------
@@ -104,11 +101,6 @@ static float find_difference(const float a[ALPI_AMBIENCE_FLOATS],
     return largest;
 }
 
-static const alp_ambience_snapshot *published(const alp_ambience *a)
-{
-    return a->snapshots.all[atomic_load(&a->snapshots.current)];
-}
-
 /// Before time moves, all light counts at once.
 static bool is_first(const alp_ambience *a)
 {
@@ -144,7 +136,7 @@ static float find_jump(const alp_ambience *a, const alpi_anchor *at, const alpi_
     if (at->slot != ALPI_NO_SLOT) {
         return find_difference(now, a->lights.light[at->slot]);
     }
-    const alp_ambience_snapshot *s = published(a);
+    const alp_ambience_snapshot *s = alpi_ambience_published(a);
     const float scale = s->dawn > 0.0f ? 1.0f / s->dawn : 0.0f; // all light dawns together
     double place[3];
     alpi_anchor_place(a, at, place);
@@ -168,7 +160,7 @@ static float fade_seconds(const alp_ambience *a, float change)
 {
     const float least = fmaxf((float)a->options.fade, 1e-3f);
     const float longest = fmaxf(least, (float)a->options.lifetime);
-    return fminf(fmaxf(change / FADE_RATE, least), longest);
+    return fminf(fmaxf(change / a->fade_rate, least), longest);
 }
 
 /// Levels on which an anchor is read.
@@ -180,6 +172,19 @@ static uint8_t count_levels(const alp_ambience *a, const alpi_anchor *at)
         const uint32_t child = a->graph.nodes[node].child;
         node = child != ALPI_NO_NODE ? child + alpi_graph_middle(a->options.flat) : ALPI_NO_NODE;
         count++;
+    }
+    return count;
+}
+
+/// Levels at the place of an anchor whose light is less than half there, its own included. Fades of
+/// levels add up, so new light gets its share of the rate of one.
+static uint32_t count_fading_in(const alp_ambience *a, const alpi_anchor *at)
+{
+    uint32_t node = alpi_graph_find(&a->graph, at->level, at->index), count = 1;
+    for (; node != ALPI_NO_NODE; node = a->graph.nodes[node].parent) {
+        const uint32_t anchor = a->graph.nodes[node].anchor;
+        const alpi_anchor *above = anchor != ALPI_NO_ANCHOR ? &a->anchors[anchor] : at;
+        count += above != at && above->state == ALPI_ANCHOR_LIT && above->confidence < 0.5f;
     }
     return count;
 }
@@ -204,13 +209,12 @@ static float solid_rate(const alp_ambience *a, const alpi_anchor *at)
 /// fade under way goes on at its speed at least, or renewals of still light would never end it.
 static float find_fade(const alp_ambience *a, const alpi_anchor *at, float jump, bool relit)
 {
-    const float least = (float)a->options.fade, most = fmaxf(least, (float)a->options.lifetime);
-    const float fade = fminf(fmaxf(at->change / FADE_RATE, least), most);
+    const float fade = fade_seconds(a, at->change);
     if (is_first(a)) {
         return 0.0f;
     }
     if (relit) {
-        return least;
+        return fade_seconds(a, 0.0f);
     }
     if (at->next == ALPI_NO_SLOT) {
         return fade;
@@ -281,8 +285,8 @@ alp_result alpi_anchor_light(alp_ambience *a, uint32_t anchor, const alpi_sh9 *r
     }
     at->confidence = is_first(a) ? 1.0f : at->confidence;
     if (!(at->confidence_rate > 0.0f)) { // it comes, or comes back
-        at->confidence_rate = 1.0f / fade_seconds(a, loss);
-        // A new anchor comes before those of finer levels, which let it in at their own pace.
+        at->confidence_rate = 1.0f / (fade_seconds(a, loss) * (float)count_fading_in(a, at));
+        // A new anchor comes before those of finer levels, which fade it in.
         at->fade_levels = at->state == ALPI_ANCHOR_EMPTY ? 1 : count_levels(a, at);
     }
     if (at->state == ALPI_ANCHOR_SOLID) {
@@ -450,7 +454,7 @@ static bool find_mean(const alp_ambience *a, float mean[ALPI_AMBIENCE_FLOATS])
 
 void alpi_ambience_find_base(alp_ambience *a, double step)
 {
-    float mean[ALPI_AMBIENCE_FLOATS];
+    float mean[ALPI_AMBIENCE_FLOATS] = {0.0f};
     if (!find_mean(a, mean)) {
         return;
     }
@@ -458,10 +462,10 @@ void alpi_ambience_find_base(alp_ambience *a, double step)
     const float dt = (float)step, apart = find_difference(mean, a->base);
     a->mean = alpi_ambience_mean(mean);
     const float level = fmaxf(fmaxf(a->mean, alpi_ambience_mean(a->base)), FLT_MIN);
-    const float seconds = fminf(apart / (FADE_RATE * level), (float)a->options.lifetime);
+    const float seconds = fminf(apart / (a->fade_rate * level), (float)a->options.lifetime);
     const float share = at_once || dt >= seconds ? 1.0f : dt / seconds;
     for (int k = 0; k < ALPI_AMBIENCE_FLOATS; k++) {
         a->base[k] += share * (mean[k] - a->base[k]);
     }
-    a->dawn = fminf(a->dawn + FADE_RATE * dt, 1.0f);
+    a->dawn = fminf(a->dawn + a->fade_rate * dt, 1.0f);
 }

@@ -258,15 +258,16 @@ static inline float add_level(const point_search *p, uint32_t level, float rest,
     return rest - trusted * scale;
 }
 
-/// The rule of 2006, at one level: anchors round the point, weighed by 1 / distance.
-static inline float add_octants(const point_search *p, uint32_t level,
+/// The rule of 2006, at one level: anchors round the point, weighed by 1 / distance. They have all
+/// of `rest`. @return what is left of it
+static inline float add_octants(const point_search *p, uint32_t level, float rest,
                                 float light[ALPI_AMBIENCE_FLOATS])
 {
     const level_lattice *l = &p->levels[level];
     level_anchors at;
     float weight[CORNERS], total = 0.0f;
     if (!find_anchors(p, l, &at)) {
-        return 1.0f;
+        return rest;
     }
     for (int i = 0; i < CORNERS; i++) {
         const float way[3] = {l->part[0] - (float)(i & 1), l->part[1] - (float)(i >> 1 & 1),
@@ -276,7 +277,7 @@ static inline float add_octants(const point_search *p, uint32_t level,
         total += weight[i];
     }
     for (int i = 0; i < CORNERS; i++) {
-        weight[i] /= total;
+        weight[i] *= rest / total;
     }
     add_light(p, &at, weight, light);
     return 0.0f;
@@ -303,7 +304,7 @@ bool ALPI_VARIANT(alpi_ambience_lookup)(const alp_ambience_snapshot *snapshot,
     }
     p.unit[1] = snapshot->flat ? 0.0 : p.unit[1];
     for (uint32_t level = find_levels(&p); level <= snapshot->depth && rest > NOTHING; level++) {
-        rest = ours ? add_level(&p, level, rest, sums) : add_octants(&p, level, sums);
+        rest = ours ? add_level(&p, level, rest, sums) : add_octants(&p, level, rest, sums);
     }
     for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
         light[i] = sums[i] + (rest > NOTHING ? rest * snapshot->base[i] : 0.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The public look-ups of a snapshot.
+// The public look-ups of a snapshot. Nine coefficients may give an E below 0: it reads as 0.
 #include "fields/ambience/ambience_snapshot.h"
 
 #include <string.h>
@@ -39,7 +39,7 @@ void alp_ambience_irradiance(const alp_ambience_snapshot *snapshot, uint32_t cou
                              float (*irradiance)[3])
 {
     for (uint32_t i = 0; snapshot != NULL && i < count; i++) {
-        vec3_store(irradiance[i],
-                   alpi_ambience_irradiance_at(snapshot, positions[i], vec3_load(normals[i])));
+        const vec3 e = alpi_ambience_irradiance_at(snapshot, positions[i], vec3_load(normals[i]));
+        vec3_store(irradiance[i], vec3_max(e, (vec3){0.0f, 0.0f, 0.0f}));
     }
 }

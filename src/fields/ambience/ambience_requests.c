@@ -14,6 +14,7 @@ enum { SLOTS = 256, SLOT_BITS = 8, SAMPLES_MOST = 1 << 12 };
 
 /// Low bits of a slot's word: where it is; the others: its serial, which a request's id holds too.
 enum { FREE = 0, OPEN, TAKEN, ANSWERED, STATE_BITS = 2 };
+static const uint64_t STATE_MASK = (1u << STATE_BITS) - 1u;
 
 static const float LARGEST = 1e30f; // coefficient: sums stay finite
 
@@ -64,7 +65,7 @@ uint32_t alpi_requests_count(const alp_ambience *a)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < SLOTS; i++) {
-        count += (atomic_load(&a->slots[i].word) & 3u) != FREE;
+        count += (atomic_load(&a->slots[i].word) & STATE_MASK) != FREE;
     }
     return count;
 }
@@ -74,7 +75,7 @@ uint64_t alpi_request_open(alp_ambience *a, uint32_t anchor)
     for (uint32_t k = 0; k < SLOTS; k++) {
         const uint32_t i = ((uint32_t)a->slot_serial + k) % SLOTS;
         alpi_request_slot *slot = &a->slots[i];
-        if ((atomic_load(&slot->word) & 3u) != FREE) {
+        if ((atomic_load(&slot->word) & STATE_MASK) != FREE) {
             continue;
         }
         const uint64_t serial = ++a->slot_serial << SLOT_BITS | i;
@@ -201,7 +202,7 @@ alp_result alp_ambience_submit_faces(alp_ambience *ambience, uint64_t id, uint32
 static void drop_void(alp_ambience *a, alpi_request_slot *slot, uint64_t word)
 {
     if (a->time - slot->opened > a->options.lifetime &&
-        atomic_compare_exchange_strong(&slot->word, &word, (word & ~(uint64_t)3u))) {
+        atomic_compare_exchange_strong(&slot->word, &word, word & ~STATE_MASK)) {
         a->anchors[slot->anchor].pending = false;
     }
 }
@@ -216,7 +217,7 @@ alp_result alpi_requests_collect(alp_ambience *a)
     for (uint32_t i = 0; i < SLOTS; i++) {
         alpi_request_slot *slot = &a->slots[i];
         const uint64_t word = atomic_load(&slot->word);
-        if ((word & 3u) == ANSWERED) {
+        if ((word & STATE_MASK) == ANSWERED) {
             if (slot->solid) {
                 alpi_anchor_solid(a, slot->anchor, 0.0f, slot->serial);
             } else {
@@ -224,11 +225,11 @@ alp_result alpi_requests_collect(alp_ambience *a)
                     alpi_anchor_light(a, slot->anchor, &slot->radiance, NULL, slot->serial);
                 result = result == ALP_OK ? one : result;
             }
-            atomic_store(&slot->word, (word & ~(uint64_t)3u));
-        } else if ((word & 3u) == OPEN) {
+            atomic_store(&slot->word, word & ~STATE_MASK);
+        } else if ((word & STATE_MASK) == OPEN) {
             drop_void(a, slot, word);
         }
-        a->requests_open |= (atomic_load(&slot->word) & 3u) != FREE;
+        a->requests_open |= (atomic_load(&slot->word) & STATE_MASK) != FREE;
     }
     return result;
 }

@@ -153,6 +153,10 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
     const alp_ambience_sampler_options o =
         options ? *options : alp_ambience_sampler_options_default();
     ALP_TRY(check_options(&o, scene));
+    if (ambience->sampler != NULL) {
+        return alpi_fail(scene->context, ALP_ERROR_INVALID_ARGUMENT,
+                         "ambience: the volume has a sampler; destroy it before the next");
+    }
     alp_ambience_sampler *s = ALPI_NEW(scene->context, alp_ambience_sampler, 1);
     if (s == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -165,7 +169,7 @@ alp_result alp_ambience_sampler_create(alp_ambience *ambience, const alp_scene *
         alp_ambience_sampler_destroy(s);
         return result;
     }
-    drop_all_hits(ambience);
+    ambience->sampler = s;
     ambience->drop_hits = drop_hits;
     fit_to_scene(ambience, scene);
     if (ambience->options.flat && ambience->options.height == NULL) {
@@ -186,6 +190,7 @@ void alp_ambience_sampler_destroy(alp_ambience_sampler *s)
         s->ambience->options.height_user = NULL;
     }
     alp_context *context = s->scene->context;
+    s->ambience->sampler = NULL;
     drop_all_hits(s->ambience);
     clear_lighting(s);
     alpi_release(context, s->moments);
@@ -428,18 +433,18 @@ static alp_result gather(alp_ambience_sampler *s, uint32_t count, alp_ambience_w
     return result;
 }
 
-/// Fills a batch. @param quarters what may be spent
+/// Fills a batch. @param quarters what may be spent; less the cost
 static alp_result fill(alp_ambience_sampler *s, const alp_ambience_camera *camera, uint32_t most,
                        int64_t *quarters, uint32_t *count)
 {
     *count = 0;
-    while (*count<most && * quarters> 0) {
+    for (int64_t left = *quarters; *count < most && left > 0; *quarters = left) {
         uint32_t anchor;
         ALP_TRY(alpi_ambience_choose(s->ambience, camera, &anchor));
         if (anchor == ALPI_NO_ANCHOR) {
             return ALP_OK;
         }
-        *quarters -= add_point(s, anchor, (*count)++);
+        left -= add_point(s, anchor, (*count)++);
     }
     return ALP_OK;
 }
@@ -484,8 +489,9 @@ alp_result alp_ambience_sampler_warm(alp_ambience_sampler *sampler,
     alp_ambience *a = sampler->ambience;
     if (a->time > a->first_time || (!isnan(a->time) && time != a->time)) {
         return alpi_fail(a->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "ambience: time has moved from %g s to %g s; warm up before",
-                         a->first_time, a->time);
+                         "ambience: warm-up at %g s of a volume that began at %g s and is at %g s; "
+                         "warm up before time moves",
+                         time, a->first_time, a->time);
     }
     for (uint32_t bounce = 0; bounce < bounces; bounce++) {
         alp_ambience_invalidate(a, false, NULL, NULL);

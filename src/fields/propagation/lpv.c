@@ -23,11 +23,12 @@ alpi_lpv_scheme alpi_lpv_scheme_of(alp_lpv_mode mode)
     const float along = (float)ALP_LPV_ALONG, aside = (float)ALP_LPV_ASIDE;
     switch (mode) {
     case ALP_LPV_CONFORMANCE:
-        return (alpi_lpv_scheme){1.0f, along, aside, 0.0f, 1.0f, 1.0f};
+        return (alpi_lpv_scheme){1.0f, along, aside, 0.0f, 1.0f, 1.0f, false};
     case ALP_LPV_TRANSFER:
-        return (alpi_lpv_scheme){MEAN_FAR, MEAN_ALONG, MEAN_ASIDE, 0.0f, 1.0f, 1.0f};
+        return (alpi_lpv_scheme){MEAN_FAR, MEAN_ALONG, MEAN_ASIDE, 0.0f, 1.0f, 1.0f, false};
     default:
-        return (alpi_lpv_scheme){1.0f, along, aside, along, aside, (float)ALP_LPV_OPACITY};
+        return (alpi_lpv_scheme){1.0f, along, aside, along, aside, (float)ALP_LPV_OPACITY,
+                                 true};
     }
 }
 
@@ -64,8 +65,8 @@ alp_lpv_options alp_lpv_options_for_scene(const alp_scene *scene, uint32_t grid,
 uint64_t alp_lpv_memory(const alp_lpv_options *o)
 {
     const uint64_t cells = alpi_lpv_cells(o->size), nodes = alpi_lpv_nodes(o->size);
-    const uint64_t light = 4 * (uint64_t)ALPI_LPV_ROWS * cells;
-    const uint64_t blockers = ALPI_LPV_FACE_ROWS * cells + 2 * ALPI_LPV_NODE_TERMS * nodes;
+    const uint64_t light = 2 * ALPI_LPV_ROWS * (cells + alpi_lpv_wide_cells(o->size));
+    const uint64_t blockers = (ALPI_LPV_OPEN_ROWS + 2 * ALPI_LPV_NODE_TERMS) * nodes;
     return o->cascades * sizeof(float) * (light + (o->blockers ? blockers : 0));
 }
 
@@ -117,16 +118,16 @@ static alp_result check_options(alp_context *context, const alp_lpv_options *o)
 static alp_result make_grid(alp_lpv *lpv, alpi_lpv_grid *g)
 {
     alp_context *context = lpv->context;
-    const size_t light = ALPI_LPV_ROWS * alpi_lpv_cells(g->size);
-    ALPI_TRY_NEW(context, g->injected, light);
-    ALPI_TRY_NEW(context, g->light, light);
-    ALPI_TRY_NEW(context, g->next, light);
-    ALPI_TRY_NEW(context, g->sum, light);
+    const size_t cells = alpi_lpv_cells(g->size), wide = alpi_lpv_wide_cells(g->size);
+    ALPI_TRY_NEW(context, g->injected, ALPI_LPV_ROWS * cells);
+    ALPI_TRY_NEW(context, g->sum, ALPI_LPV_ROWS * cells);
+    ALPI_TRY_NEW(context, g->light, ALPI_LPV_ROWS * wide);
+    ALPI_TRY_NEW(context, g->next, ALPI_LPV_ROWS * wide);
     if (lpv->options.blockers) {
-        const size_t nodes = ALPI_LPV_NODE_TERMS * alpi_lpv_nodes(g->size);
-        ALPI_TRY_NEW(context, g->faces, ALPI_LPV_FACE_ROWS * alpi_lpv_cells(g->size));
-        ALPI_TRY_NEW(context, g->nodes, nodes);
-        ALPI_TRY_NEW(context, g->view, nodes);
+        const size_t nodes = alpi_lpv_nodes(g->size);
+        ALPI_TRY_NEW(context, g->open, ALPI_LPV_OPEN_ROWS * nodes);
+        ALPI_TRY_NEW(context, g->nodes, ALPI_LPV_NODE_TERMS * nodes);
+        ALPI_TRY_NEW(context, g->view, ALPI_LPV_NODE_TERMS * nodes);
     }
     return ALP_OK;
 }
@@ -176,7 +177,7 @@ void alp_lpv_destroy(alp_lpv *lpv)
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         const alpi_lpv_grid *g = &lpv->grids[c];
         float *const volumes[] = {g->injected, g->light, g->next, g->sum,
-                                  g->faces,    g->nodes, g->view};
+                                  g->open,     g->nodes, g->view};
         for (size_t i = 0; i < sizeof volumes / sizeof *volumes; i++) {
             alpi_release(lpv->context, volumes[i]);
         }
@@ -232,7 +233,8 @@ alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3], const double forwar
 /// Rows of all grids, for workers.
 typedef struct row_loop {
     const alp_lpv *lpv;
-    alpi_lpv_rows_fn *rows;
+    alpi_lpv_rows_fn *body;
+    uint32_t rows; // of a grid
     alpi_lpv_step step;
 } row_loop;
 
@@ -241,41 +243,41 @@ static alp_result run_rows(void *user, uint32_t begin, uint32_t end, uint32_t wo
     (void)worker;
     const row_loop *loop = user;
     const alpi_lpv_grid *grids = loop->lpv->grids;
-    const uint32_t rows = grids->size[1] * grids->size[2];
     while (begin < end) {
-        const uint32_t first = begin % rows, left = rows - first;
+        const uint32_t first = begin % loop->rows, left = loop->rows - first;
         const uint32_t count = left < end - begin ? left : end - begin;
-        loop->rows(&grids[begin / rows], &loop->step, first, first + count);
+        loop->body(&grids[begin / loop->rows], &loop->step, first, first + count);
         begin += count;
     }
     return ALP_OK;
 }
 
-static alp_result run_loop(alp_lpv *lpv, row_loop *loop)
+static alp_result run_loop(alp_lpv *lpv, alpi_lpv_rows_fn *body, uint32_t rows, row_loop *loop)
 {
     enum { CELLS_A_TASK = 4096 };
-    const uint32_t *n = lpv->options.size;
-    const uint32_t rows = n[1] * n[2] * lpv->options.cascades;
-    return alpi_parallel_for(lpv->context, rows, CELLS_A_TASK / n[0] + 1, run_rows, loop, NULL);
+    loop->body = body;
+    loop->rows = rows;
+    return alpi_parallel_for(lpv->context, rows * lpv->options.cascades,
+                             CELLS_A_TASK / lpv->options.size[0] + 1, run_rows, loop, NULL);
 }
 
 alp_result alp_lpv_propagate(alp_lpv *lpv)
 {
     const alpi_lpv_loops *loops = &ALPI_COMPILED_FOR(lpv->context, alpi_lpv_loops);
     const alp_lpv_options *o = &lpv->options;
-    row_loop loop = {.lpv = lpv, .rows = loops->start};
+    const uint32_t rows = o->size[1] * o->size[2];
+    row_loop loop = {.lpv = lpv};
     loop.step.scheme = alpi_lpv_scheme_of(o->mode);
     loop.step.wraps = lpv->wraps;
     if (o->blockers) {
-        ALP_TRY(alpi_lpv_find_faces(lpv));
+        ALP_TRY(run_loop(lpv, loops->open, (o->size[1] + 1) * (o->size[2] + 1), &loop));
     }
-    ALP_TRY(run_loop(lpv, &loop));
-    loop.rows = loops->step;
+    ALP_TRY(run_loop(lpv, loops->start, rows, &loop));
     for (uint32_t i = 0; i < lpv->iterations; i++) {
         // Blockers of the surface that light leaves would stop it in the first step.
         loop.step.blocked = o->blockers && i > 0;
         loop.step.reflects = loop.step.blocked && o->bounces != 1;
-        ALP_TRY(run_loop(lpv, &loop));
+        ALP_TRY(run_loop(lpv, loops->step, rows, &loop));
         for (uint32_t c = 0; c < o->cascades; c++) {
             alpi_lpv_grid *g = &lpv->grids[c];
             float *swap = g->light;

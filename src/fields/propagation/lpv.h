@@ -46,7 +46,4 @@ static inline double alpi_lpv_share(const alpi_lpv_fades *f, uint32_t cascade, c
     return least > 0.0 ? least : 0.0;
 }
 
-/// Opacity of faces from that of nodes.
-alp_result alpi_lpv_find_faces(alp_lpv *lpv);
-
 #endif

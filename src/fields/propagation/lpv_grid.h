@@ -31,7 +31,9 @@ enum {
     ALPI_LPV_CASCADES_MOST = 8,
     ALPI_LPV_TERMS = 4,                              // p0, px, py, pz
     ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS,              // of light in a cell, by channel
-    ALPI_LPV_FACE_ROWS = 3 * (ALPI_LPV_TERMS + 3),   // opacity and albedo of three low faces
+    ALPI_LPV_DIRECTIONS = 6,                         // of travel: +x, −x, +y, −y, +z, −z
+    ALPI_LPV_FACES = 5,                              // of a neighbour: the far one, four sides
+    ALPI_LPV_OPEN_ROWS = ALPI_LPV_DIRECTIONS * ALPI_LPV_FACES + 9,
     ALPI_LPV_NODE_TERMS = ALPI_LPV_TERMS + 3,        // opacity, and albedo × opacity
 };
 
@@ -42,6 +44,7 @@ typedef struct alpi_lpv_scheme {
     float along, aside;        // direction in which a side face is read
     float give_along, give_aside; // direction of the lobe that light through a side face becomes
     float opacity;             // factor on blockers
+    bool by_angle; // blockers of one orientation stop light by its angle, not by two bands
 } alpi_lpv_scheme;
 alpi_lpv_scheme alpi_lpv_scheme_of(alp_lpv_mode mode);
 
@@ -49,12 +52,13 @@ typedef struct alpi_lpv_grid {
     uint32_t size[3];
     double cell;       // metres
     int64_t corner[3]; // of cell 0, 0, 0, in cells from the origin
-    // [z][y][channel × 4 + term][x]. `light` travels next: scaled for the step, and p × the cosine
-    // `aside`. `sum` is what readers see.
-    float *injected, *light, *next, *sum;
-    // [z][y][axis × 4 + term][x] of low faces: the share 1 − B(−ω) = q0 + q·ω of light along ω that
-    // passes; then [axis × 3 + channel] their albedo
-    float *faces;
+    float *injected, *sum; // [z][y][channel × 4 + term][x]; `sum` is what readers see
+    // [z][y][channel × 4 + term][x + 2], a cell more at both ends: what travels next. It is scaled
+    // for the step, and p × the cosine `aside`.
+    float *light, *next;
+    // [z + 1][y + 1][direction × 5 + face][x + 1] of low faces: shares of light that pass them by
+    // each direction; then [axis × 3 + channel] their albedo
+    float *open;
     // [z + 1][y + 1][x + 1][NODE_TERMS]: merged views, and the view that is being added
     float *nodes, *view;
     int64_t node_corner[3]; // `corner` when the nodes were filled
@@ -70,18 +74,25 @@ static inline size_t alpi_lpv_nodes(const uint32_t size[3])
     return ((size_t)size[0] + 1) * ((size_t)size[1] + 1) * ((size_t)size[2] + 1);
 }
 
+/// Cells with one more at both ends of each row.
+static inline size_t alpi_lpv_wide_cells(const uint32_t size[3])
+{
+    return ((size_t)size[0] + 2) * size[1] * size[2];
+}
+
 /// What one step does. `wraps`: light that leaves on one side enters on the other (tests).
 typedef struct alpi_lpv_step {
     alpi_lpv_scheme scheme;
     bool blocked, reflects, wraps;
 } alpi_lpv_step;
 
-/// Rows [first, end) of y + z × size[1]: light of neighbours to `next`, and into `sum`.
+/// Works on rows [first, end), counted y + z × rows along y.
 typedef void alpi_lpv_rows_fn(const alpi_lpv_grid *grid, const alpi_lpv_step *step, uint32_t first,
                               uint32_t end);
-/// Rows of `injected` to `light`, scaled, and to `sum`.
 typedef struct alpi_lpv_loops {
-    alpi_lpv_rows_fn *start, *step;
+    alpi_lpv_rows_fn *open;  // nodes to `open`, (size[1] + 1)(size[2] + 1) rows
+    alpi_lpv_rows_fn *start; // `injected` to `light`, and to `sum`
+    alpi_lpv_rows_fn *step;  // light of neighbours to `next`, and into `sum`
 } alpi_lpv_loops;
 extern const alpi_lpv_loops alpi_lpv_loops_baseline, alpi_lpv_loops_v3;
 

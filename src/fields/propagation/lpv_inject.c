@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { GRAIN = 4096, SLABS = 8 };
-enum { OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1 }; // in place of a place
+static const uint32_t OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1; // in place of a place
 /// A virtual light lies half a cell above its surface. Surfaces often lie at halves of cells, and
 /// there rounding would choose between two cells: a thousandth more makes the choice.
 static const double ABOVE = 0.5, BEYOND = 0.001;
@@ -323,80 +323,4 @@ void alp_lpv_begin(alp_lpv *lpv)
 void alp_lpv_begin_with_last_blockers(alp_lpv *lpv)
 {
     begin(lpv, true);
-}
-
-// --- faces ---------------------------------------------------------------------------------------
-
-typedef struct face_loop {
-    const alp_lpv *lpv;
-    float opacity;
-    bool by_angle; // ACCURATE
-} face_loop;
-
-/// Terms of what a face stops. The two bands of nodes stop light along a surface, and too little
-/// head-on. Surfaces of one orientation stop A n·ω: that and the rest, which stops half of all.
-/// @param sum of four nodes   @param b out: B(ω) = b0 + b·ω
-static void find_opacity(const float sum[ALPI_LPV_TERMS], bool by_angle, float b[ALPI_LPV_TERMS])
-{
-    for (size_t t = 0; t < ALPI_LPV_TERMS; t++) {
-        b[t] = (by_angle ? 0.5f : 0.25f) * sum[t];
-    }
-    if (by_angle) {
-        const float along = sqrtf(b[1] * b[1] + b[2] * b[2] + b[3] * b[3]);
-        b[0] = fmaxf(0.5f * (sum[0] - along), 0.0f);
-    }
-}
-
-/// Openness of the low faces of a row of cells across one axis, from the mean of their four nodes.
-static void find_row(const alpi_lpv_grid *g, const face_loop *loop, uint32_t y, uint32_t z,
-                     int axis)
-{
-    enum { N = ALPI_LPV_NODE_TERMS };
-    const size_t n = g->size[0], wide = n + 1, high = (size_t)g->size[1] + 1;
-    const size_t steps[3] = {N, N * wide, N * wide * high};
-    const size_t b = steps[(axis + 1) % 3], c = steps[(axis + 2) % 3];
-    const float *first = g->nodes + ((size_t)z * high + y) * wide * N;
-    float *rows = g->faces + ((size_t)z * g->size[1] + y) * ALPI_LPV_FACE_ROWS * n;
-    float *terms = rows + (size_t)axis * ALPI_LPV_TERMS * n;
-    float *albedo = rows + (size_t)(3 * ALPI_LPV_TERMS + 3 * axis) * n;
-    for (size_t x = 0; x < n; x++) {
-        const float *at = first + x * N;
-        float sum[N], stopped[ALPI_LPV_TERMS];
-        for (size_t t = 0; t < N; t++) {
-            sum[t] = at[t] + at[b + t] + at[c + t] + at[b + c + t];
-        }
-        find_opacity(sum, loop->by_angle, stopped);
-        // A surface stops light that travels against its normal: openness 1 − B(−ω).
-        terms[x] = 1.0f - loop->opacity * stopped[0];
-        for (size_t t = 1; t < ALPI_LPV_TERMS; t++) {
-            terms[t * n + x] = loop->opacity * stopped[t];
-        }
-        for (size_t k = 0; k < 3; k++) {
-            albedo[k * n + x] = sum[0] > 0.0f ? sum[ALPI_LPV_TERMS + k] / sum[0] : 0.0f;
-        }
-    }
-}
-
-static alp_result find_rows(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const face_loop *loop = user;
-    const alpi_lpv_grid *grids = loop->lpv->grids;
-    const uint32_t height = grids->size[1], rows = height * grids->size[2];
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t row = i % rows;
-        for (int axis = 0; axis < 3; axis++) {
-            find_row(&grids[i / rows], loop, row % height, row / height, axis);
-        }
-    }
-    return ALP_OK;
-}
-
-alp_result alpi_lpv_find_faces(alp_lpv *lpv)
-{
-    const uint32_t *n = lpv->options.size;
-    const alp_lpv_mode mode = lpv->options.mode;
-    face_loop loop = {lpv, alpi_lpv_scheme_of(mode).opacity, mode == ALP_LPV_ACCURATE};
-    return alpi_parallel_for(lpv->context, n[1] * n[2] * lpv->options.cascades, n[1], find_rows,
-                             &loop, NULL);
 }

@@ -12,12 +12,9 @@
 #define EACH_CELL _Pragma("GCC ivdep") for (uint32_t x = 0; x < n; x++)
 #endif
 
-enum { TERMS = ALPI_LPV_TERMS, FACES = 5, DIRECTIONS = 6, MOST = ALPI_LPV_SIDE_MOST };
+enum { TERMS = ALPI_LPV_TERMS, FACES = ALPI_LPV_FACES, DIRECTIONS = ALPI_LPV_DIRECTIONS };
 static const float FAR = (float)ALP_LPV_FAR, SIDE = (float)ALP_LPV_SIDE;
 static const float PI4 = 12.56637061f;
-
-/// Rows of a work area lie this many floats apart: powers of two would share few lines of the cache.
-enum { PAD = 24, STRIDE_MOST = MOST + PAD };
 
 static inline float larger(float a, float b)
 {
@@ -59,33 +56,6 @@ static inline float scale_of(reading r, float i, float vx, float vy, float vz)
     return PI4 * i / larger(sum, 1e-30f);
 }
 
-// --- what blocks light ---------------------------------------------------------------------------
-
-static inline float clamp_open(float open)
-{
-    return open < 0.0f ? 0.0f : (open > 1.0f ? 1.0f : open);
-}
-
-/// Shares of light that pass a face, travelling along an axis: to the far face, and to the sides
-/// at + and − of the other two axes.
-/// @param sign of travel   @param g openness of the face: term 0, its axis, and the others
-static void find_open(const alpi_lpv_scheme *s, uint32_t n, float sign, const float *g0,
-                      const float *ga, const float *gb, const float *gc, size_t stride, float *open)
-{
-    const float along = sign * s->along, aside = s->aside;
-    float *o1 = open + stride, *o2 = o1 + stride, *o3 = o2 + stride, *o4 = o3 + stride;
-    EACH_CELL
-    {
-        const float beside = g0[x] + along * ga[x];
-        const float b = aside * gb[x], c = aside * gc[x];
-        open[x] = clamp_open(g0[x] + sign * ga[x]);
-        o1[x] = clamp_open(beside + b);
-        o2[x] = clamp_open(beside - b);
-        o3[x] = clamp_open(beside + c);
-        o4[x] = clamp_open(beside - c);
-    }
-}
-
 // --- gathering -----------------------------------------------------------------------------------
 
 /// What passes five faces, per solid angle: the far one, the sum of the four at the sides, and
@@ -94,63 +64,64 @@ typedef struct passed {
     float far, sides, b, c;
 } passed;
 
-/// What light sends along an axis. Scalars alone, or the compiler does not vectorise the loop over
-/// cells.
-/// @param i, va, vb, vc light of a cell: va along the axis   @param o0 … o4 shares that pass
-static inline passed send(reading r, float sign, float i, float va, float vb,
-                          float vc, float o0, float o1, float o2, float o3, float o4)
+/// Light of a cell: I(ω) = i + …, va along an axis.
+typedef struct cell_light {
+    float i, va, vb, vc;
+} cell_light;
+
+/// What light sends along an axis. Scalars, or the compiler does not vectorise the loop over cells.
+/// @param o0 … o4 shares that pass the far face, and sides at + and − of two axes
+static inline passed send(reading r, float sign, cell_light p, float o0, float o1, float o2,
+                          float o3, float o4)
 {
-    const float beside = i + sign * r.along * va;
-    const float b0 = larger(beside + vb, 0.0f) * o1, b1 = larger(beside - vb, 0.0f) * o2;
-    const float c0 = larger(beside + vc, 0.0f) * o3, c1 = larger(beside - vc, 0.0f) * o4;
-    const float far = larger(i + sign * r.straight * va, 0.0f) * o0;
+    const float beside = p.i + sign * r.along * p.va;
+    const float b0 = larger(beside + p.vb, 0.0f) * o1, b1 = larger(beside - p.vb, 0.0f) * o2;
+    const float c0 = larger(beside + p.vc, 0.0f) * o3, c1 = larger(beside - p.vc, 0.0f) * o4;
+    const float far = larger(p.i + sign * r.straight * p.va, 0.0f) * o0;
     return (passed){far, (b0 + b1) + (c0 + c1), b0 - b1, c0 - c1};
 }
 
-/// All that a row of cells needs to know of its surroundings. Directions of travel: +x, −x, +y, −y,
-/// +z, −z. What arrives by +x was at x − 1.
+/// The surroundings of a row of cells, in one channel. By direction of travel: +x, −x, +y, −y, +z,
+/// −z. Light that arrives by +x was at x − 1, and leaves by +x through the low face of x + 1.
 typedef struct row_work {
-    uint32_t n, channel;
-    size_t stride; // of rows below, floats
+    uint32_t n;
+    size_t light_step, open_step; // floats from a row to the next one
     alpi_lpv_scheme scheme;
-    const float *from[DIRECTIONS][TERMS];           // light that arrives
-    float own[TERMS * STRIDE_MOST];                 // light of the row, a cell more at each end
-    float open[DIRECTIONS * FACES * STRIDE_MOST];   // shares of light that arrive
-    float leave[DIRECTIONS * FACES * STRIDE_MOST];  // shares of light that leave
-    float albedo[3 * DIRECTIONS * STRIDE_MOST];     // of the faces that it leaves by, by channel
+    const float *own, *from[DIRECTIONS];                       // light: term 0 at x = 0
+    const float *open[DIRECTIONS], *leave[DIRECTIONS];         // shares that pass: face 0
+    const float *albedo[DIRECTIONS];                           // of the faces that light leaves by
 } row_work;
 
 /// What arrives in a cell by direction d. a, b, c: the terms of its axis and of the two others.
-static inline passed arrive(const row_work *w, reading r, uint32_t x, bool blocked, int d, int a,
-                            int b, int c)
+static inline passed arrive(const row_work *w, reading r, uint32_t x, bool blocked, int d, size_t a,
+                            size_t b, size_t c)
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
-    const float *const *p = w->from[d];
-    const size_t k = w->stride;
-    const float *o = w->open + (size_t)d * FACES * k + x;
-    return send(r, sign, p[0][x], p[a][x], p[b][x], p[c][x], blocked ? o[0] : 1.0f,
-                blocked ? o[k] : 1.0f, blocked ? o[2 * k] : 1.0f, blocked ? o[3 * k] : 1.0f,
-                blocked ? o[4 * k] : 1.0f);
+    const size_t s = w->light_step, k = w->open_step;
+    const float *p = w->from[d] + x, *o = blocked ? w->open[d] + x : NULL;
+    const cell_light light = {p[0], p[a * s], p[b * s], p[c * s]};
+    return send(r, sign, light, blocked ? o[0] : 1.0f, blocked ? o[k] : 1.0f,
+                blocked ? o[2 * k] : 1.0f, blocked ? o[3 * k] : 1.0f, blocked ? o[4 * k] : 1.0f);
 }
 
-/// Flux that the blockers of a cell throw back of the light that leaves it by direction d.
-static inline float come_back(const row_work *w, reading r, uint32_t x, int d, int a, int b, int c)
+/// Flux that blockers throw back of the light that leaves a cell by direction d.
+static inline float come_back(const row_work *w, reading r, uint32_t x, int d, size_t a, size_t b,
+                              size_t c)
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
-    const size_t k = w->stride;
-    const float *p = w->own + x + 1, *o = w->leave + (size_t)d * FACES * k + x;
-    const passed met =
-        send(r, sign, p[0], p[(size_t)a * k], p[(size_t)b * k], p[(size_t)c * k],
-             1.0f - o[0], 1.0f - o[k], 1.0f - o[2 * k], 1.0f - o[3 * k], 1.0f - o[4 * k]);
-    return w->albedo[(w->channel * DIRECTIONS + (size_t)d) * k + x] * (FAR * met.far + SIDE * met.sides);
+    const size_t s = w->light_step, k = w->open_step;
+    const float *p = w->own + x, *o = w->leave[d] + x;
+    const cell_light light = {p[0], p[a * s], p[b * s], p[c * s]};
+    const passed met = send(r, sign, light, 1.0f - o[0], 1.0f - o[k], 1.0f - o[2 * k],
+                            1.0f - o[3 * k], 1.0f - o[4 * k]);
+    return w->albedo[d][x] * (FAR * met.far + SIDE * met.sides);
 }
 
 /// One channel of a row. Each face's flux Φ becomes a lobe Φ/π (1/4 + n·ω/2); what comes back, one
 /// against the way that it went. Called with constants for each kind of step.
-__attribute__((always_inline)) static inline void gather_row(const row_work *w, bool blocked,
-                                                             bool reflects,
-                                                             float *const next[TERMS],
-                                                             float *const sum[TERMS])
+/// @param next row 0 of the light of the next step   @param sum row 0 of the sum
+__attribute__((always_inline)) static inline void
+gather_row(const row_work *w, bool blocked, bool reflects, float *next, float *sum)
 {
     const uint32_t n = w->n;
     const reading r = reading_of(&w->scheme);
@@ -158,6 +129,8 @@ __attribute__((always_inline)) static inline void gather_row(const row_work *w, 
     const float quarter = 0.0795774715f, half = 0.1591549431f; // 1/4π, 1/2π
     const float give_far = half * FAR, give_along = half * SIDE * w->scheme.give_along;
     const float give_aside = half * SIDE * w->scheme.give_aside;
+    float *next_x = next + w->light_step, *next_y = next_x + w->light_step;
+    float *next_z = next_y + w->light_step, *sum_x = sum + n, *sum_y = sum_x + n, *sum_z = sum_y + n;
     EACH_CELL
     {
         // Axis by axis, so that few values wait in registers.
@@ -190,133 +163,109 @@ __attribute__((always_inline)) static inline void gather_row(const row_work *w, 
             vy += half * (ry1 - ry0);
             vz += half * (rz1 - rz0);
         }
-        sum[0][x] += i;
-        sum[1][x] += vx;
-        sum[2][x] += vy;
-        sum[3][x] += vz;
+        sum[x] += i;
+        sum_x[x] += vx;
+        sum_y[x] += vy;
+        sum_z[x] += vz;
         vx *= aside;
         vy *= aside;
         vz *= aside;
         const float scale = scale_of(r, i, vx, vy, vz);
-        next[0][x] = scale * i;
-        next[1][x] = scale * vx;
-        next[2][x] = scale * vy;
-        next[3][x] = scale * vz;
+        next[x] = scale * i;
+        next_x[x] = scale * vx;
+        next_y[x] = scale * vy;
+        next_z[x] = scale * vz;
     }
 }
 
 // --- rows and their neighbours -------------------------------------------------------------------
 
-/// Rows of a block without light, or without blockers: all is open.
-static const float dark[ALPI_LPV_ROWS * MOST];
+static const float dark[ALPI_LPV_ROWS * (ALPI_LPV_SIDE_MOST + 2)]; // light beyond the grid
 
-/// The block of rows at (y, z); `beyond` outside of the grid.
-static const float *block_at(const alpi_lpv_grid *g, const float *volume, uint32_t rows, int64_t y,
-                             int64_t z, bool wraps, const float *beyond)
+/// Light of the cells at (y, z): row 0 at x = −1.
+static const float *light_at(const alpi_lpv_grid *g, int64_t y, int64_t z, bool wraps)
 {
     const int64_t ny = g->size[1], nz = g->size[2];
     if (y < 0 || z < 0 || y >= ny || z >= nz) {
         if (!wraps) {
-            return beyond;
+            return dark;
         }
         y = (y + ny) % ny;
         z = (z + nz) % nz;
     }
-    return volume + ((size_t)z * (size_t)ny + (size_t)y) * rows * g->size[0];
+    return g->light + ((size_t)z * (size_t)ny + (size_t)y) * ALPI_LPV_ROWS * (g->size[0] + 2);
 }
 
-/// A row with one cell more at each end.
-static void widen(float *wide, const float *row, uint32_t n, bool wraps, float beyond)
+/// Openness of the low faces of the cells at (y, z): row 0 at x = 0.
+static const float *open_at(const alpi_lpv_grid *g, size_t y, size_t z)
 {
-    EACH_CELL
-    {
-        wide[x + 1] = row[x];
-    }
-    wide[0] = wraps ? row[n - 1] : beyond;
-    wide[n + 1] = wraps ? row[0] : beyond;
+    return g->open + (z * (g->size[1] + 1) + y) * ALPI_LPV_OPEN_ROWS * (g->size[0] + 1);
 }
 
-/// Blockers of the six faces of each cell of a row: its own low faces, and those of the cells
-/// beyond its high faces.
-static void find_blockers(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32_t y, uint32_t z,
-                          const float *open, row_work *w)
+/// Light that enters by the low face travels by +, and leaves by it by −.
+static void find_faces(const alpi_lpv_grid *g, uint32_t y, uint32_t z, row_work *w,
+                       const float *albedo[DIRECTIONS])
 {
-    float wide[(TERMS + 3) * STRIDE_MOST];
+    const float *own = open_at(g, y, z);
+    const float *beyond[3] = {own + 1, open_at(g, y + 1, z), open_at(g, y, z + 1)};
     for (size_t a = 0; a < 3; a++) {
-        for (int high = 0; high < 2; high++) {
-            const float *block =
-                block_at(g, g->faces, ALPI_LPV_FACE_ROWS, (int64_t)y + (a == 1 && high),
-                         (int64_t)z + (a == 2 && high), step->wraps, open);
-            const float *rows[TERMS + 3];
-            for (size_t t = 0; t < TERMS + 3; t++) {
-                rows[t] = block + (t < TERMS ? a * TERMS + t : 3 * TERMS + a * 3 + t - TERMS) * w->n;
-                if (a == 0 && high) {
-                    float *row = wide + t * w->stride;
-                    widen(row, rows[t], w->n, step->wraps, t == 0 ? 1.0f : 0.0f);
-                    rows[t] = row + 2;
-                }
-            }
-            // Light enters by the low face in the direction of + and leaves by it in that of −.
-            const size_t in = 2 * a + (size_t)high, out = 2 * a + 1 - (size_t)high;
-            const float sign = high ? -1.0f : 1.0f;
-            const float *gb = rows[1 + (a + 1) % 3], *gc = rows[1 + (a + 2) % 3];
-            find_open(&w->scheme, w->n, sign, rows[0], rows[1 + a], gb, gc, w->stride,
-                      w->open + in * FACES * w->stride);
-            if (step->reflects) {
-                find_open(&w->scheme, w->n, -sign, rows[0], rows[1 + a], gb, gc, w->stride,
-                          w->leave + out * FACES * w->stride);
-                for (size_t k = 0; k < 3; k++) {
-                    memcpy(w->albedo + (k * DIRECTIONS + out) * w->stride, rows[TERMS + k],
-                           w->n * sizeof(float));
-                }
-            }
-        }
+        const size_t up = 2 * a, down = 2 * a + 1;
+        const size_t colors = (DIRECTIONS * FACES + 3 * a) * w->open_step;
+        w->open[up] = own + up * FACES * w->open_step;
+        w->open[down] = beyond[a] + down * FACES * w->open_step;
+        w->leave[up] = beyond[a] + up * FACES * w->open_step;
+        w->leave[down] = own + down * FACES * w->open_step;
+        albedo[up] = beyond[a] + colors;
+        albedo[down] = own + colors;
+    }
+}
+
+/// Ends of rows, where light that leaves on one side enters on the other.
+static void wrap(float *rows, size_t step, uint32_t n)
+{
+    for (size_t t = 0; t < TERMS; t++) {
+        rows[t * step] = rows[t * step + n];
+        rows[t * step + n + 1] = rows[t * step + 1];
     }
 }
 
 static void step_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32_t first,
                       uint32_t end)
 {
-    static const int beside[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    float open[ALPI_LPV_FACE_ROWS * MOST] = {0.0f}; // beyond the grid
-    row_work w;
-    w.n = g->size[0];
-    w.stride = w.n + PAD;
-    w.scheme = step->scheme;
-    for (size_t x = 0; x < w.n && step->blocked; x++) {
-        open[x] = open[TERMS * w.n + x] = open[2 * TERMS * w.n + x] = 1.0f;
-    }
+    row_work w = {.n = g->size[0],
+                  .light_step = g->size[0] + 2,
+                  .open_step = g->size[0] + 1,
+                  .scheme = step->scheme};
     for (uint32_t row = first; row < end; row++) {
         const uint32_t y = row % g->size[1], z = row / g->size[1];
-        const float *blocks[4];
-        for (int i = 0; i < 4; i++) {
-            blocks[i] = block_at(g, g->light, ALPI_LPV_ROWS, (int64_t)y + beside[i][0],
-                                 (int64_t)z + beside[i][1], step->wraps, dark);
-        }
+        const float *own = light_at(g, y, z, false), *albedo[DIRECTIONS] = {NULL};
+        const float *from[DIRECTIONS] = {own,
+                                         own + 2,
+                                         light_at(g, (int64_t)y - 1, z, step->wraps) + 1,
+                                         light_at(g, (int64_t)y + 1, z, step->wraps) + 1,
+                                         light_at(g, y, (int64_t)z - 1, step->wraps) + 1,
+                                         light_at(g, y, (int64_t)z + 1, step->wraps) + 1};
         if (step->blocked) {
-            find_blockers(g, step, y, z, open, &w);
+            find_faces(g, y, z, &w, albedo);
         }
-        for (w.channel = 0; w.channel < 3; w.channel++) {
-            float *next[TERMS], *sum[TERMS];
-            for (size_t t = 0; t < TERMS; t++) {
-                const size_t k = (w.channel * TERMS + t) * w.n;
-                const size_t own = (size_t)row * ALPI_LPV_ROWS * w.n + k;
-                next[t] = g->next + own;
-                sum[t] = g->sum + own;
-                float *wide = w.own + t * w.stride;
-                widen(wide, g->light + own, w.n, step->wraps, 0.0f);
-                w.from[0][t] = wide;
-                w.from[1][t] = wide + 2;
-                for (int i = 0; i < 4; i++) {
-                    w.from[2 + i][t] = blocks[i] + k;
-                }
+        for (size_t channel = 0; channel < 3; channel++) {
+            const size_t rows = channel * TERMS;
+            float *next = g->next + (own - g->light) + rows * w.light_step;
+            float *sum = g->sum + ((size_t)row * ALPI_LPV_ROWS + rows) * w.n;
+            w.own = own + 1 + rows * w.light_step;
+            for (int d = 0; d < DIRECTIONS; d++) {
+                w.from[d] = from[d] + rows * w.light_step;
+                w.albedo[d] = step->blocked ? albedo[d] + channel * w.open_step : NULL;
             }
             if (step->reflects) {
-                gather_row(&w, true, true, next, sum);
+                gather_row(&w, true, true, next + 1, sum);
             } else if (step->blocked) {
-                gather_row(&w, true, false, next, sum);
+                gather_row(&w, true, false, next + 1, sum);
             } else {
-                gather_row(&w, false, false, next, sum);
+                gather_row(&w, false, false, next + 1, sum);
+            }
+            if (step->wraps) {
+                wrap(next, w.light_step, w.n);
             }
         }
     }
@@ -329,10 +278,11 @@ static void start_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32
     const float aside = step->scheme.aside;
     const reading r = reading_of(&step->scheme);
     for (uint32_t block = 3 * first; block < 3 * end; block++) {
-        const size_t at = (size_t)block * TERMS * n;
+        const size_t at = (size_t)block * TERMS * n, wide = n + 2;
         const float *p0 = g->injected + at, *p1 = p0 + n, *p2 = p1 + n, *p3 = p2 + n;
-        float *l0 = g->light + at, *l1 = l0 + n, *l2 = l1 + n, *l3 = l2 + n;
-        memcpy(g->sum + at, p0, TERMS * n * sizeof *p0);
+        float *light = g->light + (size_t)block * TERMS * wide;
+        float *l0 = light + 1, *l1 = l0 + wide, *l2 = l1 + wide, *l3 = l2 + wide;
+        memcpy(g->sum + at, p0, (size_t)TERMS * n * sizeof *p0);
         EACH_CELL
         {
             const float vx = aside * p1[x], vy = aside * p2[x], vz = aside * p3[x];
@@ -342,7 +292,78 @@ static void start_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32
             l2[x] = scale * vy;
             l3[x] = scale * vz;
         }
+        if (step->wraps) {
+            wrap(light, wide, n);
+        }
     }
 }
 
-const alpi_lpv_loops ALPI_VARIANT(alpi_lpv_loops) = {start_rows, step_rows};
+// --- what blocks light ---------------------------------------------------------------------------
+
+static inline float clamp_open(float open)
+{
+    return open < 0.0f ? 0.0f : (open > 1.0f ? 1.0f : open);
+}
+
+/// Shares of light that pass a face and travel on to the far face, and to the sides at + and − of
+/// the other two axes. A surface stops light that travels against its normal: 1 − B(−ω).
+/// @param b0, ba, bb, bc opacity of the face: ba along the axis   @param sign of travel
+static void open_faces(const alpi_lpv_scheme *s, float sign, float b0, float ba, float bb, float bc,
+                       size_t step, float *open)
+{
+    const float beside = 1.0f - b0 + sign * s->along * ba;
+    open[0] = clamp_open(1.0f - b0 + sign * ba);
+    open[step] = clamp_open(beside + s->aside * bb);
+    open[2 * step] = clamp_open(beside - s->aside * bb);
+    open[3 * step] = clamp_open(beside + s->aside * bc);
+    open[4 * step] = clamp_open(beside - s->aside * bc);
+}
+
+/// Low faces of a row across one axis, each from the mean of its four nodes.
+static void open_row(const alpi_lpv_grid *g, const alpi_lpv_scheme *s, uint32_t y, uint32_t z,
+                     size_t axis, float *rows)
+{
+    enum { N = ALPI_LPV_NODE_TERMS };
+    const size_t wide = (size_t)g->size[0] + 1, high = (size_t)g->size[1] + 1;
+    const size_t steps[3] = {N, N * wide, N * wide * high};
+    const size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const uint32_t at[3] = {0, y, z};
+    const float *first = g->nodes + (z * high + y) * wide * N;
+    float *up = rows + 2 * axis * FACES * wide, *down = up + FACES * wide;
+    float *albedo = rows + (DIRECTIONS * FACES + 3 * axis) * wide;
+    for (size_t x = 0; x < wide; x++) {
+        const float *node = first + x * N;
+        const size_t along[3] = {x, at[1], at[2]};
+        // Faces beyond the last cell of another axis belong to no cell.
+        const size_t to_b = along[b] < g->size[b] ? steps[b] : 0;
+        const size_t to_c = along[c] < g->size[c] ? steps[c] : 0;
+        float sum[N];
+        for (size_t t = 0; t < N; t++) {
+            sum[t] = node[t] + node[to_b + t] + node[to_c + t] + node[to_b + to_c + t];
+        }
+        const float k = (s->by_angle ? 0.5f : 0.25f) * s->opacity;
+        const float ba = k * sum[1 + axis], bb = k * sum[1 + b], bc = k * sum[1 + c];
+        // Surfaces of one orientation stop A n·ω, and the rest stops half of all.
+        const float rest = s->opacity * sum[0] - sqrtf(ba * ba + bb * bb + bc * bc);
+        const float b0 = s->by_angle ? larger(0.5f * rest, 0.0f) : k * sum[0];
+        open_faces(s, 1.0f, b0, ba, bb, bc, wide, up + x);
+        open_faces(s, -1.0f, b0, ba, bb, bc, wide, down + x);
+        for (size_t i = 0; i < 3; i++) {
+            albedo[i * wide + x] = sum[0] > 0.0f ? sum[TERMS + i] / sum[0] : 0.0f;
+        }
+    }
+}
+
+static void open_rows(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32_t first,
+                      uint32_t end)
+{
+    const uint32_t high = g->size[1] + 1;
+    for (uint32_t row = first; row < end; row++) {
+        float *rows = g->open + (size_t)row * ALPI_LPV_OPEN_ROWS * (g->size[0] + 1);
+        for (size_t axis = 0; axis < 3; axis++) {
+            open_row(g, &step->scheme, row % high, row / high, axis, rows);
+        }
+    }
+}
+
+const alpi_lpv_loops ALPI_VARIANT(alpi_lpv_loops) = {open_rows, start_rows, step_rows};

@@ -11,7 +11,8 @@ for option in --bounces; do
     try render scene.glb -o out.png --with ao $option 1
 done
 try info scene.glb --pictures folder
-for command in lpv view; do
+try lpv scene.glb --sky 1,1,1
+for command in view; do
     try $command
     try $command scene.glb --help
 done

@@ -12,6 +12,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+/// Metres along x of a wall without thickness.
+static const double WORLD_WALL = 2.9;
+
 static inline double world_random(uint64_t *state)
 {
     *state = *state * 6364136223846793005u + 1442695040888963407u;
@@ -55,8 +58,8 @@ static inline uint32_t world_answer(alp_ambience *ambience, const alp_ambience_c
     return done;
 }
 
-/// Mean distances, and of their squares, to the ground and to a wall without thickness at x = 2.9:
-/// of 4 × 4 directions of each texel.
+/// Mean distances, and of their squares, to the ground and to the wall: of 4 × 4 directions of each
+/// texel.
 static inline void world_distances(const double p[3], double ground, double reach,
                                    float moments[ALPI_AMBIENCE_MOMENTS][2])
 {
@@ -64,7 +67,8 @@ static inline void world_distances(const double p[3], double ground, double reac
     for (int i = 0; i < 32 * 32; i++) {
         const vec3 d = alpi_octahedral_decode(
             (vec2){((float)(i % 32) + 0.5f) / 32.0f, ((float)(i / 32) + 0.5f) / 32.0f});
-        const double down = (ground - p[1]) / (double)d.y, across = (2.9 - p[0]) / (double)d.x;
+        const double down = (ground - p[1]) / (double)d.y;
+        const double across = (WORLD_WALL - p[0]) / (double)d.x;
         double nearest = down > 0.0 ? fmin(down, reach) : reach;
         nearest = across > 0.0 ? fmin(across, nearest) : nearest;
         float *texel = moments[i / 32 / 4 * 8 + i % 32 / 4];
@@ -90,7 +94,7 @@ static inline uint32_t world_answer_seen(alp_ambience *ambience, const alp_ambie
         alpi_anchor_place(ambience, &ambience->anchors[anchor], place);
         const alp_sh9 all = world_light(place, 0.0);
         for (int i = 0; i < ALPI_AMBIENCE_FLOATS; i++) {
-            light.c[i / 3][i % 3] = all.c[i / 3][i % 3] * (place[0] > 2.9 ? 0.5f : 1.0f);
+            light.c[i / 3][i % 3] = all.c[i / 3][i % 3] * (place[0] > WORLD_WALL ? 0.5f : 1.0f);
         }
         const double cell = alpi_ambience_cell(ambience, ambience->anchors[anchor].level);
         world_distances(place, ground, 2.0 * cell, moments);

@@ -65,16 +65,13 @@ static inline double *twin_cell(const twin *t, double *volume, const int at[3])
 }
 
 /// Opacity of the face that is crossed from a cell along ±axis, for light that travels along w;
-/// and the albedo of what blocks there. No face at the upper sides of the grid.
+/// and the albedo of what blocks there.
 static inline double twin_opacity(const twin *t, const int cell[3], int axis, int sign,
                                   const double w[3], double albedo[3])
 {
     double sum[TWIN_NODE] = {0.0};
     int at[3] = {cell[0], cell[1], cell[2]};
     at[axis] += sign > 0;
-    if (at[axis] >= t->n[axis]) {
-        return 0.0;
-    }
     for (int corner = 0; corner < 4; corner++) {
         int node[3] = {at[0], at[1], at[2]};
         node[(axis + 1) % 3] += corner & 1;

@@ -2,7 +2,16 @@
 // Light of the ambience volume is continuous in time and space, along random ways of a camera. E at
 // fixed points changes by 1 % of the mean from frame to frame at most, and by .1 % along 1 mm.
 // Behind a wall without thickness, light fades within centimetres: .1 % along .01 mm.
+//
+// AMBIENCE_PATHS sets the number of analytic paths, AMBIENCE_RAY_PATHS that of paths by rays:
+//
+//     paths                         % a frame   % along 1 mm
+//     2,000 analytic                .53         .0041
+//     2,000 analytic, by the wall   .63         2.1 (.015 along .01 mm)
+//     20 by rays                    .66         .058
 #include "ambience_world.h"
+
+#include "scene/builtin/builtin_terrain.h"
 
 TEST_CONTEXT(2);
 
@@ -12,6 +21,7 @@ static const double FRAME = 1.0 / 60.0;
 typedef struct walk {
     double length;      // of a step, metres
     double frame, step; // largest changes of E over the mean: from frame to frame, and of a step
+    double millimetre;  // the same along 1 mm
 } walk;
 
 /// Points that are watched, and E there in the last frame.
@@ -36,13 +46,17 @@ static void watch_frame(alp_ambience *a, int frame, float mean, watch *w, walk *
     const alp_ambience_snapshot *s = alp_ambience_begin_read(a);
     for (int i = 0; i < POINTS; i++) {
         double beside[3] = {w->points[i][0], w->points[i][1], w->points[i][2]};
+        double far[3] = {beside[0], beside[1], beside[2]};
         beside[frame % 3] += most->length;
+        far[frame % 3] += 1e-3;
         for (int n = 0; n < NORMALS; n++) {
             const float e = irradiance_at(s, w->points[i], n);
             const double change = (double)(fabsf(e - w->before[i][n]) / mean);
             const double step = (double)(fabsf(irradiance_at(s, beside, n) - e) / mean);
+            const double longer = (double)(fabsf(irradiance_at(s, far, n) - e) / mean);
             most->frame = fmax(most->frame, frame > 0 ? change : 0.0);
             most->step = fmax(most->step, step);
+            most->millimetre = fmax(most->millimetre, longer);
             w->before[i][n] = e;
         }
     }
@@ -69,8 +83,9 @@ static int count_paths(const char *name, int quick, int usual)
 
 static void check(const walk *most)
 {
-    print_message("largest change: %.3f %% a frame, %.4f %% along %g mm\n", 100.0 * most->frame,
-                  100.0 * most->step, 1e3 * most->length);
+    print_message("largest change: %.3f %% a frame, %.4f %% along %g mm, %.4f %% along 1 mm\n",
+                  100.0 * most->frame, 100.0 * most->step, 1e3 * most->length,
+                  100.0 * most->millimetre);
     assert_true(most->frame <= 0.01);
     assert_true(most->step <= 0.001);
     assert_true(most->frame > 0.0); // something changed
@@ -100,6 +115,9 @@ static void walk_path(const alp_ambience_options *o, uint64_t seed, walk *most)
     answer(a, &camera, 100 + 20 * (uint32_t)(seed >> 61));
     ASSERT_OK(context, alp_ambience_update(a, 0.0));
     place_points(&camera, 0.0, &seed, &w);
+    for (int i = 0; i < POINTS / 2 && o->visibility; i++) { // half of them by the wall
+        w.points[i][0] = WORLD_WALL + world_random(&seed);
+    }
     for (int frame = 0; frame < FRAMES; frame++) {
         ASSERT_OK(context, alp_ambience_update(a, (frame + 1) * FRAME));
         answer(a, &camera, 60);
@@ -139,7 +157,7 @@ TEST(light_that_is_seen_does_not_jump)
     const int paths = count_paths("AMBIENCE_PATHS", 5, 50);
     walk most = {.length = 1e-5};
     for (int i = 0; i < paths; i++) {
-        walk_path(&o, (uint64_t)i + 1390, &most); // 1416: a point by the wall
+        walk_path(&o, (uint64_t)i + 1, &most);
     }
     check(&most);
 }
@@ -159,13 +177,34 @@ TEST(the_rule_of_2006_jumps)
 
 // --- rays ----------------------------------------------------------------------------------------
 
-/// Flies over a landscape for half a second, after a part of the anchors was sampled.
+/// Moves half of the points to 1 to 3 m over the ground, between the nearest two houses. The camera
+/// flies by above them.
+static void place_alley(alp_ambience_camera *camera, uint64_t *seed, watch *w)
+{
+    const alpi_house *a = &alpi_terrain_houses()[1], *b = &alpi_terrain_houses()[2];
+    const double middle[3] = {0.5 * (double)(a->x + b->x), (double)alpi_terrain_pad(a),
+                              0.5 * (double)(a->z + b->z)};
+    for (int k = 0; k < 3; k += 2) {
+        camera->velocity[k] = 60.0 * (world_random(seed) - 0.5);
+        camera->position[k] = middle[k] - 0.25 * camera->velocity[k];
+    }
+    camera->position[1] = middle[1] + 4.0 + 10.0 * world_random(seed);
+    place_points(camera, middle[1] + 12.0, seed, w);
+    for (int i = 0; i < POINTS / 2; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double away = world_random(seed);
+            w->points[i][k] = middle[k] + (k == 1 ? 1.0 + 2.0 * away : 3.0 * (away - 0.5));
+        }
+    }
+}
+
+/// Flies over a hamlet for half a second, after a part of the anchors was sampled.
 static void fly_path(const alp_scene *scene, uint64_t seed, walk *most)
 {
     alp_ambience_options o = alp_ambience_options_default();
     alp_ambience_sampler_options s = alp_ambience_sampler_options_default();
     alp_ambience_sampler *sampler = NULL;
-    alp_ambience_camera camera = {.position = {0.0, 22.0, 0.0}};
+    alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
     watch w;
     o.anchor_limit = 4000;
     s.lighting.sky.kind = ALP_SKY_CLEAR;
@@ -173,13 +212,9 @@ static void fly_path(const alp_scene *scene, uint64_t seed, walk *most)
     s.lighting.sun.illuminance = 1e5f;
     alp_ambience *a = world_open(context, &o);
     ASSERT_OK(context, alp_ambience_sampler_create(a, scene, &s, &sampler));
-    for (int k = 0; k < 3; k += 2) {
-        camera.position[k] = 100.0 * (world_random(&seed) - 0.5);
-        camera.velocity[k] = 60.0 * (world_random(&seed) - 0.5);
-    }
+    place_alley(&camera, &seed, &w);
     ASSERT_OK(context, alp_ambience_update(a, 0.0));
     ASSERT_OK(context, alp_ambience_sample(sampler, &camera, 50, 0.0, NULL));
-    place_points(&camera, 18.0, &seed, &w);
     for (int frame = 0; frame < FRAMES; frame++) {
         ASSERT_OK(context, alp_ambience_update(a, (frame + 1) * FRAME));
         ASSERT_OK(context, alp_ambience_sample(sampler, &camera, 20, 0.0, NULL));

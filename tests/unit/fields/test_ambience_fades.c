@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light of the ambience volume in time: solids that come and go, first light, and light that gets
-// out of date while it is on its way.
+// out of date before it arrives.
 #include "ambience_world.h"
 
 TEST_CONTEXT(1);
@@ -205,6 +205,56 @@ TEST(first_light_dawns)
         assert_true(most <= 0.01f * a->mean);
         alp_ambience_destroy(a);
     }
+}
+
+/// Both look-ups dawn alike. Under even light, each gives the dawn's share of it.
+TEST(all_look_ups_dawn)
+{
+    const alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    const double place[3] = {0.3, 0.2, -0.4};
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}}};
+    for (int lookup = 0; lookup < 2; lookup++) {
+        alp_ambience_options o = small_options();
+        o.lookup = (alp_ambience_lookup)lookup;
+        alp_ambience *a = world_open(context, &o);
+        ASSERT_OK(context, alp_ambience_update(a, 0.0));
+        ASSERT_OK(context, alp_ambience_update(a, 0.5));
+        for (int step = 0; step < 40; step++) {
+            alp_ambience_request request;
+            ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+            if (request.id != 0) {
+                ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+            }
+            ASSERT_OK(context, alp_ambience_update(a, 0.6 + 0.1 * step));
+            ASSERT_NEAR(read_up(a, place), ALPI_PI * 0.28209479 * fmin(0.03 * (step + 1), 1.0),
+                        1e-4);
+        }
+        alp_ambience_destroy(a);
+    }
+}
+
+/// The loop of a host: answers to the requests of one frame are taken in the next. Those of the
+/// first frame count at once if nothing was visible, and fade in if light was.
+TEST(answers_to_the_first_requests_count_at_once)
+{
+    const alp_ambience_camera camera = {.position = {0.2, 0.1, 0.3}};
+    const double place[3] = {0.3, 0.2, -0.4};
+    const alp_ambience_options o = small_options();
+    alp_ambience *looped = world_open(context, &o), *warmed = world_open(context, &o);
+    ASSERT_OK(context, alp_ambience_update(looped, 0.0));
+    ASSERT_OK(context, alp_ambience_update(warmed, 0.0));
+    (void)world_answer(looped, &camera, 20, -1e9, 0.0);
+    (void)world_answer(warmed, &camera, 20, -1e9, 0.0);
+    ASSERT_OK(context, alp_ambience_update(looped, FRAME));
+    ASSERT_OK(context, alp_ambience_update(warmed, 0.0));
+    const float warm = read_up(warmed, place);
+    assert_true(warm > 0.5f);
+    ASSERT_NEAR(read_up(looped, place), warm, 1e-6);
+    assert_true(world_answer(warmed, &camera, 200, -1e9, 0.0) > 100);
+    ASSERT_OK(context, alp_ambience_update(warmed, FRAME));
+    ASSERT_NEAR(read_up(warmed, place), warm, 0.01 * (double)warm);
+    alp_ambience_destroy(looped);
+    alp_ambience_destroy(warmed);
 }
 
 /// A camera that jumps to bright places: where no anchor is, light follows slowly.

@@ -36,8 +36,8 @@ static void go_up(int32_t index[3])
     }
 }
 
-/// The most confidence among the children of the parent of a place, the middle one left out; −1:
-/// its parent has no children, for no anchor lies below it.
+/// The most confidence among the children of the parent of a place, without the middle one. −1:
+/// its parent has no children, because no anchor lies below it.
 static float siblings(const alp_ambience *a, uint32_t level, const int32_t index[3])
 {
     int32_t parent[3] = {index[0], index[1], index[2]};
@@ -59,7 +59,7 @@ static float siblings(const alp_ambience *a, uint32_t level, const int32_t index
     return most;
 }
 
-/// A moment in a texel, which may lie beyond the square: there the map goes on turned by half a
+/// A moment in a texel, which may lie beyond the square. There the map continues, turned by half a
 /// turn about the middle of the edge.
 static double texel_moment(const float (*moments)[2], int x, int y, int which)
 {
@@ -347,6 +347,37 @@ TEST(even_light_is_read_exactly)
         alp_ambience_irradiance(s, 1, p, n, e);
         ASSERT_NEAR(e[0][0], 3.14159265 * 0.28209479, 1e-5); // A0 Y0
         ASSERT_NEAR(e[0][2], 3.0 * 3.14159265 * 0.28209479, 3e-5);
+    }
+    alp_ambience_end_read(a, s);
+    alp_ambience_destroy(a);
+}
+
+/// Nine coefficients may give an E below 0, which no surface receives.
+TEST(irradiance_is_never_negative)
+{
+    const alp_ambience_options o = small_options();
+    alp_ambience *a = world_open(context, &o);
+    const alp_ambience_camera camera = {.position = {0.0, 0.0, 0.0}};
+    const alp_sh9 light = {.c = {{1.0f, 1.0f, 1.0f}, {1.5f, 1.5f, 1.5f}}}; // E(−y) = −.649
+    const double low[3] = {-0.1, -0.1, -0.1}, high[3] = {0.1, 0.1, 0.1};
+    const double corners[4][3] = {{0.0}};
+    float cube[6][3], down[4][3], e[4][3];
+    alp_ambience_request request;
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    ASSERT_OK(context, alp_ambience_next(a, &camera, &request));
+    ASSERT_OK(context, alp_ambience_submit(a, request.id, &light));
+    ASSERT_OK(context, alp_ambience_update(a, 0.0));
+    const alp_ambience_snapshot *s = alp_ambience_begin_read(a);
+    for (int way = 0; way < 6; way++) {
+        for (int i = 0; i < 4; i++) {
+            memset(down[i], 0, sizeof down[i]);
+            down[i][way / 2] = way % 2 == 0 ? 1.0f : -1.0f;
+        }
+        alp_ambience_patch(s, corners, (const float(*)[3])down, e);
+        alp_ambience_object_cube(s, low, high, cube);
+        assert_true(e[3][1] >= 0.0f && cube[way][1] >= 0.0f);
+        alp_ambience_irradiance(s, 4, corners, (const float(*)[3])down, e);
+        assert_true(e[3][1] >= 0.0f);
     }
     alp_ambience_end_read(a, s);
     alp_ambience_destroy(a);

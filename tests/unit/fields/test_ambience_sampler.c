@@ -329,6 +329,38 @@ TEST(samplers_refuse_bad_options)
     alp_scene_destroy(scene);
 }
 
+TEST(warming_up_later_names_the_times)
+{
+    live l = open_live(test_load(context, "builtin:cornell"), NULL, NULL);
+    ASSERT_OK(context, alp_ambience_update(l.ambience, 5.0));
+    assert_int_equal(alp_ambience_sampler_warm(l.sampler, &l.camera, 5.5, 1),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(alp_context_message(context), "at 5.5 s of a volume that began at 5 s"));
+    ASSERT_OK(context, alp_ambience_update(l.ambience, 6.0));
+    assert_int_equal(alp_ambience_sampler_warm(l.sampler, &l.camera, 6.0, 1),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(alp_context_message(context), "began at 5 s and is at 6 s"));
+    close_live(&l);
+}
+
+/// A second one would share hits and ground with the first.
+TEST(a_volume_has_one_sampler_at_a_time)
+{
+    alp_ambience_options o = room_options(27.0, 2);
+    o.flat = true;
+    live l = open_live(test_load(context, "builtin:cornell"), &o, NULL);
+    alp_ambience_sampler *second = NULL;
+    (void)step_live(&l, 0.0, 10);
+    assert_int_equal(alp_ambience_sampler_create(l.ambience, l.scene, NULL, &second),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_null(second);
+    assert_true(l.ambience->options.height_user == l.sampler);
+    alp_ambience_sampler_destroy(l.sampler);
+    ASSERT_OK(context, alp_ambience_sampler_create(l.ambience, l.scene, NULL, &l.sampler));
+    assert_true(l.ambience->options.height_user == l.sampler);
+    close_live(&l);
+}
+
 // --- workers -------------------------------------------------------------------------------------
 
 typedef struct live_bits {

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Light propagation against the truth, in free air and on surfaces, with probes beside it. Two
+// references: the first reflection alone, and all bounces. Neither has a sky.
+#include "bench.h"
+
+#include "base/random.h"
+#include "fields/propagation/lpv.h"
+
+#include <alpenglow/probes.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINTS = 1000, PATHS = 512, STREAM = 9, PLACES = 2, DEPTHS = 2 };
+
+typedef struct truth_scene {
+    const char *name, *title, *light;
+    bool sun, shared;
+    float spacing; // metres of probes
+} truth_scene;
+static const truth_scene scenes[] = {
+    {"builtin:cornell", "cornell", "its own", false, false, 0.035f},
+    {"builtin:teapot-room", "teapot-room", "its own", false, false, 0.5f},
+    {"builtin:atrium", "atrium", "a sun", true, false, 1.0f},
+    {"scenes/architecture/zdm2.glb", "zdm2", "a sun", true, true, 4.0f},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+/// Points in free air, then on fronts of surfaces, and the truth of them.
+typedef struct truth_case {
+    const truth_scene *what;
+    bool quick;
+    bench_scene scene;
+    alp_lighting_options light;
+    uint32_t count; // of each place
+    float (*positions)[3], (*normals)[3], (*values)[3];
+    float (*truth[DEPTHS])[3]; // by depth: one reflection, all bounces
+    bench_table table;
+} truth_case;
+
+// --- points --------------------------------------------------------------------------------------
+
+/// Points spread over surfaces by area, a thousandth of the scene's size above them.
+static void place_on_surfaces(const truth_case *c, float (*positions)[3], float (*normals)[3])
+{
+    const alp_scene *s = c->scene.scene;
+    const float lift = 1e-4f * vec3_length(vec3_sub(s->bounds_max, s->bounds_min));
+    double *ends = bench_allocate(s->triangle_count, sizeof *ends), sum = 0.0;
+    for (uint32_t t = 0; t < s->triangle_count; t++) {
+        vec3 k[3];
+        alpi_triangle_corners(s, t, k);
+        sum += s->triangle_usable[t] ? vec3_triangle_area(k[0], k[1], k[2]) : 0.0;
+        ends[t] = sum;
+    }
+    for (uint32_t i = 0, t = 0; i < c->count; i++) {
+        const vec2 u = alpi_sample_2d(STREAM, i);
+        const float root = sqrtf(u.x);
+        vec3 k[3];
+        while (t + 1 < s->triangle_count && ends[t] <= (i + 0.5) / c->count * sum) {
+            t++;
+        }
+        alpi_triangle_corners(s, t, k);
+        const vec3 n = vec3_triangle_normal(k[0], k[1], k[2], (vec3){0.0f, 1.0f, 0.0f});
+        vec3 p = vec3_scale(k[0], 1.0f - root);
+        p = vec3_mad(vec3_mad(p, root * (1.0f - u.y), k[1]), root * u.y, k[2]);
+        vec3_store(positions[i], vec3_mad(p, lift, n));
+        vec3_store(normals[i], n);
+    }
+    free(ends);
+}
+
+static alp_result find_truth(truth_case *c)
+{
+    static const uint32_t depths[DEPTHS] = {1, ALP_BOUNCES_CONVERGE};
+    ALP_TRY(alp_scene_free_points(c->scene.scene, STREAM, c->count, c->positions, c->normals));
+    place_on_surfaces(c, c->positions + c->count, c->normals + c->count);
+    for (int d = 0; d < DEPTHS; d++) {
+        alp_reference_options o = alp_reference_options_default();
+        o.lighting = c->light;
+        o.samples = c->quick ? 16 : PATHS;
+        o.bounces = depths[d];
+        ALP_TRY(alp_reference_irradiance(c->scene.scene, &o, PLACES * c->count,
+                                         (const float(*)[3])c->positions,
+                                         (const float(*)[3])c->normals, c->truth[d], NULL));
+    }
+    return ALP_OK;
+}
+
+// --- rows ----------------------------------------------------------------------------------------
+
+/// 100 Σ|E − truth| / Σ truth, and 100 Σ(E − truth) / Σ truth.
+static void judge(const truth_case *c, int place, int depth, double *error, double *bias)
+{
+    double apart = 0.0, more = 0.0, all = 0.0;
+    for (uint32_t i = (uint32_t)place * c->count; i < (uint32_t)(place + 1) * c->count; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double d = (double)c->values[i][k] - (double)c->truth[depth][i][k];
+            apart += fabs(d);
+            more += d;
+            all += (double)c->truth[depth][i][k];
+        }
+    }
+    *error = 100.0 * apart / all;
+    *bias = 100.0 * more / all;
+}
+
+static void add_row(truth_case *c, const char *model, const char *grid, const char *blockers,
+                    const alp_field *field, int depth)
+{
+    double error[PLACES], bias[PLACES];
+    alp_field_irradiance(field, PLACES * c->count, (const float(*)[3])c->positions,
+                         (const float(*)[3])c->normals, c->values);
+    for (int p = 0; p < PLACES; p++) {
+        judge(c, p, depth, &error[p], &bias[p]);
+    }
+    bench_table_add(&c->table, "%s|%s|%s|%s|%.0f|%+.0f|%.0f|%+.0f", model, grid, blockers,
+                    depth == 0 ? "one" : "all", error[0], bias[0], error[1], bias[1]);
+}
+
+static alp_result measure_lpv(truth_case *c, alp_lpv_mode mode, uint32_t grid, bool blockers,
+                              int depth)
+{
+    static const char *const names[2] = {"accurate", "conformance"};
+    alp_lpv_options o = alp_lpv_options_for_scene(c->scene.scene, grid, 1);
+    alp_lpv_scene_options so = alp_lpv_scene_options_default();
+    char size[16];
+    alp_lpv *lpv = NULL;
+    alp_field *field = NULL;
+    o.mode = mode;
+    o.blockers = blockers;
+    o.bounces = depth == 0 ? 1 : ALP_BOUNCES_CONVERGE;
+    so.lighting = c->light;
+    so.map_size = c->quick ? 16 : so.map_size;
+    so.points = c->quick ? 1024 : 4 * so.points;
+    snprintf(size, sizeof size, "%u³", grid);
+    ALP_TRY(alp_lpv_create(c->scene.context, &o, &lpv));
+    alp_result result = alp_lpv_light_scene(lpv, c->scene.scene, &so, NULL);
+    if (result == ALP_OK) {
+        result = alp_field_create_lpv(lpv, &field);
+    }
+    if (result == ALP_OK) {
+        add_row(c, names[mode], size, blockers ? "points" : "off", field, depth);
+    }
+    alp_field_destroy(field);
+    alp_lpv_destroy(lpv);
+    return result;
+}
+
+static alp_result measure_probes(truth_case *c)
+{
+    alp_probe_options o = alp_probe_options_default();
+    alp_probes *probes = NULL;
+    alp_field *field = NULL;
+    o.lighting = c->light;
+    o.spacing = c->what->spacing;
+    o.rays = c->quick ? 384 : o.rays;
+    ALP_TRY(alp_probes_bake(c->scene.scene, &o, &probes));
+    alp_result result = alp_field_create_probes(probes, ALP_LOOKUP_OURS, c->scene.scene->origin,
+                                                NULL, &field);
+    if (result == ALP_OK) {
+        add_row(c, "probes", "–", "–", field, 1);
+    }
+    alp_field_destroy(field);
+    alp_probes_destroy(probes);
+    return result;
+}
+
+static alp_result measure_scene(truth_case *c)
+{
+    static const uint32_t grids[3] = {16, 32, 64};
+    ALP_TRY(find_truth(c));
+    for (int g = 0; g < (c->quick ? 1 : 3); g++) {
+        for (int mode = 0; mode < 2; mode++) {
+            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], false, 0));
+            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], true, 0));
+            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], true, 1));
+        }
+    }
+    return c->quick ? ALP_OK : measure_probes(c);
+}
+
+static bool run_scene(const truth_scene *what, const bench_options *options)
+{
+    static char note[256];
+    truth_case c = {.what = what, .quick = options->quick};
+    const char *name = what->shared ? bench_shared(what->name, NULL) : what->name;
+    snprintf(note, sizeof note, "Light: %s.", what->light);
+    bench_table_start(&c.table, what->title, note,
+                      "model|grid|blockers|bounces|error in air, %|bias, %|error on surfaces, %|bias, %");
+    if (name == NULL) {
+        c.table.note = "Skipped: not below ALPENGLOW_SHARED.";
+        bench_table_print(&c.table, options);
+        return true;
+    }
+    if (!bench_scene_load(name, 0, &c.scene)) {
+        return false;
+    }
+    c.count = options->quick ? 32 : POINTS;
+    c.light = alp_lighting_options_default();
+    if (what->sun) {
+        c.light.sun = (alp_sun_options){.azimuth = 0.7f,
+                                        .elevation = 0.9f,
+                                        .illuminance = 100.0f,
+                                        .color = {1.0f, 1.0f, 1.0f}};
+    }
+    const uint32_t all = PLACES * c.count;
+    c.positions = bench_allocate(all, sizeof *c.positions);
+    c.normals = bench_allocate(all, sizeof *c.normals);
+    c.values = bench_allocate(all, sizeof *c.values);
+    for (int d = 0; d < DEPTHS; d++) {
+        c.truth[d] = bench_allocate(all, sizeof *c.truth[d]);
+    }
+    const bool good = bench_good(&c.scene, measure_scene(&c));
+    bench_table_print(&c.table, options);
+    free(c.positions);
+    free(c.normals);
+    free(c.values);
+    for (int d = 0; d < DEPTHS; d++) {
+        free(c.truth[d]);
+    }
+    bench_scene_close(&c.scene);
+    return good;
+}
+
+int bench_lpv_truth(const bench_options *options)
+{
+    for (int i = 0; i < (options->quick ? 1 : SCENES); i++) {
+        if (!run_scene(&scenes[i], options)) {
+            return 1;
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// A medium between camera and surfaces, which scatters light: mist, and shafts of light in it.
+#ifndef ALPI_RENDER_AIR_H
+#define ALPI_RENDER_AIR_H
+
+#include "render/field_light.h"
+
+#include <alpenglow/lpv.h>
+
+/// A medium that fills the bounds of the scene, scatters into all directions alike and absorbs
+/// nothing.
+typedef struct alpi_air {
+    const alpi_field_light *light; // its lamps shine into the medium, with shadows
+    const alp_lpv *lpv;            // all other light in it
+    float scattering;              // coefficient S, 1/m; 0: there is no medium
+} alpi_air;
+
+/// The medium along rays, up to the surfaces that they meet, through panes. Light in it is dimmed
+/// on its way to the camera alone.
+///     scattered = ∫ S e^(−S t) fluence / 4π dt,   left = e^(−S T)
+/// @param rays  unit directions   @param lanes bit i: lane i
+/// @param key   of the pixel's random numbers   @param first sample of lane 0
+/// @param scattered, left out, of those lanes
+void alpi_air_along(const alpi_air *air, const alpi_rays *rays, uint32_t lanes, uint32_t key,
+                    uint32_t first, vec3 scattered[ALPI_PACKET], float left[ALPI_PACKET]);
+
+#endif
