@@ -198,9 +198,10 @@ static alp_result measure_steps(const bench_options *options)
     static const uint32_t sizes[3] = {16, 32, 64};
     bench_scene none = {.name = "step"};
     bench_table table;
-    bench_table_start(&table, "One step on one core",
-                      "Floor: a volume read, one written, one added to. Times in the same rounds.",
-                      "grid|floor, ms|step, ms|step / floor|with blockers|and bounces|scatter / step");
+    bench_table_start(
+        &table, "One step on one core",
+        "Floor: a volume read, one written, one added to. Times in the same rounds.",
+        "grid|floor, ms|step, ms|step / floor|with blockers|and bounces|scatter / step");
     alp_context_options o = alp_context_options_default();
     o.worker_count = 1;
     ALP_TRY(alp_context_create(&o, &none.context));
@@ -291,8 +292,7 @@ static alp_result find_reach(alp_context *context, alp_lpv_mode mode, uint32_t s
 {
     const float position[1][3] = {{0.5f, 0.5f, 0.0f}}, up[1][3] = {{0.0f, 0.0f, 1.0f}};
     const float flux[1][3] = {{1.0f, 1.0f, 1.0f}};
-    const alp_lpv_surfels light = {
-        .count = 1, .positions = position, .normals = up, .flux = flux};
+    const alp_lpv_surfels light = {.count = 1, .positions = position, .normals = up, .flux = flux};
     alp_lpv_options o = alp_lpv_options_default();
     alp_lpv_grid g;
     alp_lpv *lpv = NULL;
@@ -309,8 +309,8 @@ static alp_result find_reach(alp_context *context, alp_lpv_mode mode, uint32_t s
     const size_t n = g.size[0], zero = (size_t)(-g.corner[0]);
     for (size_t r = 1; r <= REACH && result == ALP_OK; r++) {
         const float *row = g.intensities + ((zero + r) * n + zero) * ALPI_LPV_ROWS * n + zero;
-        const double e = (ALPI_PI * (double)row[0] + 2.0 / 3.0 * ALPI_PI * (double)row[3 * n]) /
-                         ALP_LPV_GAIN;
+        const double e =
+            (ALPI_PI * (double)row[0] + 2.0 / 3.0 * ALPI_PI * (double)row[3 * n]) / ALP_LPV_GAIN;
         reach[r - 1] = (float)(e * ALPI_PI * (double)(r * r));
     }
     alp_lpv_destroy(lpv);

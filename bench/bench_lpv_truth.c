@@ -156,8 +156,8 @@ static alp_result measure_probes(truth_case *c)
     o.spacing = c->what->spacing;
     o.rays = c->quick ? 384 : o.rays;
     ALP_TRY(alp_probes_bake(c->scene.scene, &o, &probes));
-    alp_result result = alp_field_create_probes(probes, ALP_LOOKUP_OURS, c->scene.scene->origin,
-                                                NULL, &field);
+    alp_result result =
+        alp_field_create_probes(probes, ALP_LOOKUP_OURS, c->scene.scene->origin, NULL, &field);
     if (result == ALP_OK) {
         add_row(c, "probes", "–", "–", field, 1);
     }
@@ -186,8 +186,9 @@ static bool run_scene(const truth_scene *what, const bench_options *options)
     truth_case c = {.what = what, .quick = options->quick};
     const char *name = what->shared ? bench_shared(what->name, NULL) : what->name;
     snprintf(note, sizeof note, "Light: %s.", what->light);
-    bench_table_start(&c.table, what->title, note,
-                      "model|grid|blockers|bounces|error in air, %|bias, %|error on surfaces, %|bias, %");
+    bench_table_start(
+        &c.table, what->title, note,
+        "model|grid|blockers|bounces|error in air, %|bias, %|error on surfaces, %|bias, %");
     if (name == NULL) {
         c.table.note = "Skipped: not below ALPENGLOW_SHARED.";
         bench_table_print(&c.table, options);
@@ -199,10 +200,8 @@ static bool run_scene(const truth_scene *what, const bench_options *options)
     c.count = options->quick ? 32 : POINTS;
     c.light = alp_lighting_options_default();
     if (what->sun) {
-        c.light.sun = (alp_sun_options){.azimuth = 0.7f,
-                                        .elevation = 0.9f,
-                                        .illuminance = 100.0f,
-                                        .color = {1.0f, 1.0f, 1.0f}};
+        c.light.sun = (alp_sun_options){
+            .azimuth = 0.7f, .elevation = 0.9f, .illuminance = 100.0f, .color = {1.0f, 1.0f, 1.0f}};
     }
     const uint32_t all = PLACES * c.count;
     c.positions = bench_allocate(all, sizeof *c.positions);

@@ -28,10 +28,12 @@ typedef struct alp_lpv alp_lpv; ///< opaque
 
 /// How light goes from a cell to the next one, through the five faces that it has there.
 typedef enum alp_lpv_mode {
-    /// Light keeps the direction in which it travelled. Blockers count 1.6 times.
+    /// Light keeps the direction in which it travelled. Blockers stop light by its angle, 1.6
+    /// times.
     ALP_LPV_ACCURATE = 0,
     /// The paper: light leaves the next cell along the normal of the face that it met. Views of
-    /// blockers are merged by the maximum of each coefficient.
+    /// blockers are merged by the maximum of each coefficient. Light on surfaces that falls along
+    /// their normal is damped.
     ALP_LPV_CONFORMANCE,
     /// An older proposal: as CONFORMANCE, with the mean of the intensity over each face in place
     /// of the intensity towards its middle.
@@ -114,8 +116,7 @@ ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascad
                                                    const alp_lpv_surfels *surfels);
 /// Injects blockers. One call is one view: views are merged, as they show the same surfaces.
 /// @return ALP_OK; INVALID_ARGUMENT (no areas; the volume has no blockers)
-ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv,
-                                                      const alp_lpv_surfels *surfels);
+ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels);
 /// Lets light travel. Cost: about 10 ns a cell and step on one core, 18 with blockers.
 /// @return ALP_OK; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_lpv_propagate(alp_lpv *lpv);

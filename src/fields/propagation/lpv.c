@@ -27,8 +27,7 @@ alpi_lpv_scheme alpi_lpv_scheme_of(alp_lpv_mode mode)
     case ALP_LPV_TRANSFER:
         return (alpi_lpv_scheme){MEAN_FAR, MEAN_ALONG, MEAN_ASIDE, 0.0f, 1.0f, 1.0f, false};
     default:
-        return (alpi_lpv_scheme){1.0f, along, aside, along, aside, (float)ALP_LPV_OPACITY,
-                                 true};
+        return (alpi_lpv_scheme){1.0f, along, aside, along, aside, (float)ALP_LPV_OPACITY, true};
     }
 }
 

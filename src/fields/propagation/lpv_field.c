@@ -129,6 +129,26 @@ typedef struct lpv_field {
     const alp_lpv *lpv;
 } lpv_field;
 
+/// Share of light at a point that counts, by channel. A surface is read above the cells behind it,
+/// so the light of ACCURATE needs no damping: it would blacken walls near lit floors.
+static void damp(const alp_lpv *lpv, const alpi_lpv_grid *g, const float position[3],
+                 const float n[3], light_terms here, float shares[3])
+{
+    light_terms low = {{0}}, high = {{0}};
+    double p[3];
+    shares[0] = shares[1] = shares[2] = 1.0f;
+    if (lpv->options.mode == ALP_LPV_ACCURATE) {
+        return;
+    }
+    move_along(position, n, (LIFT - 0.5) * g->cell, p);
+    add_terms(g, p, 1.0f, low);
+    move_along(position, n, (LIFT + 0.5) * g->cell, p);
+    add_terms(g, p, 1.0f, high);
+    for (int k = 0; k < 3; k++) {
+        shares[k] = find_damping(here[k], low[k], high[k]);
+    }
+}
+
 static void irradiance(const alp_field *field, uint32_t count, const float (*positions)[3],
                        const float (*normals)[3], float (*out)[3])
 {
@@ -142,19 +162,16 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
         const uint32_t grids = find_grids(lpv, &fades, p, places);
         memset(out[i], 0, sizeof out[i]);
         for (uint32_t g = 0; g < grids; g++) {
-            const double cell = places[g].grid->cell;
-            light_terms here = {{0}}, low = {{0}}, high = {{0}};
-            move_along(positions[i], n, LIFT * cell, p);
+            light_terms here = {{0}};
+            float shares[3];
+            move_along(positions[i], n, LIFT * places[g].grid->cell, p);
             add_terms(places[g].grid, p, 1.0f, here);
-            move_along(positions[i], n, (LIFT - 0.5) * cell, p);
-            add_terms(places[g].grid, p, 1.0f, low);
-            move_along(positions[i], n, (LIFT + 0.5) * cell, p);
-            add_terms(places[g].grid, p, 1.0f, high);
+            damp(lpv, places[g].grid, positions[i], n, here, shares);
             for (int k = 0; k < 3; k++) {
                 const float *t = here[k];
                 const float along = t[1] * n[0] + t[2] * n[1] + t[3] * n[2];
                 const float e = (float)ALPI_PI * (t[0] - (2.0f / 3.0f) * along);
-                out[i][k] += places[g].weight * find_damping(t, low[k], high[k]) * fmaxf(e, 0.0f);
+                out[i][k] += places[g].weight * shares[k] * fmaxf(e, 0.0f);
             }
         }
     }

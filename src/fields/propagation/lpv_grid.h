@@ -29,29 +29,29 @@
 enum {
     ALPI_LPV_SIDE_MOST = 512,
     ALPI_LPV_CASCADES_MOST = 8,
-    ALPI_LPV_TERMS = 4,                              // p0, px, py, pz
-    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS,              // of light in a cell, by channel
-    ALPI_LPV_DIRECTIONS = 6,                         // of travel: +x, −x, +y, −y, +z, −z
-    ALPI_LPV_FACES = 5,                              // of a neighbour: the far one, four sides
+    ALPI_LPV_TERMS = 4,                 // p0, px, py, pz
+    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS, // of light in a cell, by channel
+    ALPI_LPV_DIRECTIONS = 6,            // of travel: +x, −x, +y, −y, +z, −z
+    ALPI_LPV_FACES = 5,                 // of a neighbour: the far one, four sides
     ALPI_LPV_OPEN_ROWS = ALPI_LPV_DIRECTIONS * ALPI_LPV_FACES + 9,
-    ALPI_LPV_NODE_TERMS = ALPI_LPV_TERMS + 3,        // opacity, and albedo × opacity
+    ALPI_LPV_NODE_TERMS = ALPI_LPV_TERMS + 3, // opacity, and albedo × opacity
 };
 
 /// How light is read at faces and given on: all that tells the modes apart. Cosines are along the
 /// way to the neighbour, and from its axis to a side.
 typedef struct alpi_lpv_scheme {
-    float far;                 // length of the direction in which the far face is read
-    float along, aside;        // direction in which a side face is read
+    float far;                    // length of the direction in which the far face is read
+    float along, aside;           // direction in which a side face is read
     float give_along, give_aside; // direction of the lobe that light through a side face becomes
-    float opacity;             // factor on blockers
+    float opacity;                // factor on blockers
     bool by_angle; // blockers of one orientation stop light by its angle, not by two bands
 } alpi_lpv_scheme;
 alpi_lpv_scheme alpi_lpv_scheme_of(alp_lpv_mode mode);
 
 typedef struct alpi_lpv_grid {
     uint32_t size[3];
-    double cell;       // metres
-    int64_t corner[3]; // of cell 0, 0, 0, in cells from the origin
+    double cell;           // metres
+    int64_t corner[3];     // of cell 0, 0, 0, in cells from the origin
     float *injected, *sum; // [z][y][channel × 4 + term][x]; `sum` is what readers see
     // [z][y][channel × 4 + term][x + 2], a cell more at both ends: what travels next. It is scaled
     // for the step, and p × the cosine `aside`.

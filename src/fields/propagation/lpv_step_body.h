@@ -87,9 +87,9 @@ typedef struct row_work {
     uint32_t n;
     size_t light_step, open_step; // floats from a row to the next one
     alpi_lpv_scheme scheme;
-    const float *own, *from[DIRECTIONS];                       // light: term 0 at x = 0
-    const float *open[DIRECTIONS], *leave[DIRECTIONS];         // shares that pass: face 0
-    const float *albedo[DIRECTIONS];                           // of the faces that light leaves by
+    const float *own, *from[DIRECTIONS];               // light: term 0 at x = 0
+    const float *open[DIRECTIONS], *leave[DIRECTIONS]; // shares that pass: face 0
+    const float *albedo[DIRECTIONS];                   // of the faces that light leaves by
 } row_work;
 
 /// What arrives in a cell by direction d. a, b, c: the terms of its axis and of the two others.
@@ -120,8 +120,8 @@ static inline float come_back(const row_work *w, reading r, uint32_t x, int d, s
 /// One channel of a row. Each face's flux Φ becomes a lobe Φ/π (1/4 + n·ω/2); what comes back, one
 /// against the way that it went. Called with constants for each kind of step.
 /// @param next row 0 of the light of the next step   @param sum row 0 of the sum
-__attribute__((always_inline)) static inline void
-gather_row(const row_work *w, bool blocked, bool reflects, float *next, float *sum)
+__attribute__((always_inline)) static inline void gather_row(const row_work *w, bool blocked,
+                                                             bool reflects, float *next, float *sum)
 {
     const uint32_t n = w->n;
     const reading r = reading_of(&w->scheme);
@@ -130,7 +130,8 @@ gather_row(const row_work *w, bool blocked, bool reflects, float *next, float *s
     const float give_far = half * FAR, give_along = half * SIDE * w->scheme.give_along;
     const float give_aside = half * SIDE * w->scheme.give_aside;
     float *next_x = next + w->light_step, *next_y = next_x + w->light_step;
-    float *next_z = next_y + w->light_step, *sum_x = sum + n, *sum_y = sum_x + n, *sum_z = sum_y + n;
+    float *next_z = next_y + w->light_step, *sum_x = sum + n, *sum_y = sum_x + n,
+          *sum_z = sum_y + n;
     EACH_CELL
     {
         // Axis by axis, so that few values wait in registers.

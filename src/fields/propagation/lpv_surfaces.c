@@ -32,7 +32,8 @@ static vec2 sample_place(uint32_t key, uint32_t number, bool both)
     return alpi_sample_2d(key, both ? number / 2 : number);
 }
 
-static vec3 normal_at(const alp_scene *scene, uint32_t triangle, const vec3 c[3], float b1, float b2)
+static vec3 normal_at(const alp_scene *scene, uint32_t triangle, const vec3 c[3], float b1,
+                      float b2)
 {
     const vec3 flat = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
     const uint32_t *v = scene->triangles[triangle];

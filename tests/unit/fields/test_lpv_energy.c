@@ -209,7 +209,7 @@ TEST(accurate_light_has_the_symmetry_of_the_cube)
     const uint32_t size[3] = {15, 15, 15};
     alp_lpv *lpv = make(size, ALP_LPV_ACCURATE, false, 10);
     const float centre[3] = {0.5f, 0.5f, 0.5f}; // of cell 0
-    for (int a = 0; a < 3; a++) { // the same light along all six axes
+    for (int a = 0; a < 3; a++) {               // the same light along all six axes
         for (int s = -1; s <= 1; s += 2) {
             float n[3] = {0.0f, 0.0f, 0.0f}, p[3];
             n[a] = (float)s;
@@ -310,10 +310,7 @@ TEST(whole_cells_do_not_matter)
         alp_lpv_begin(lpv);
         const float p[3] = {0.3f, 0.4f, 0.2f}, n[3] = {0.0f, 1.0f, 0.0f};
         const float area = 0.8f, q[1][3] = {{1.1f, 1.9f, 0.3f}}, m[1][3] = {{0.0f, -1.0f, 0.0f}};
-        const alp_lpv_surfels wall = {.count = 1,
-                                      .positions = q,
-                                      .normals = m,
-                                      .areas = &area};
+        const alp_lpv_surfels wall = {.count = 1, .positions = q, .normals = m, .areas = &area};
         add_one(lpv, p, n, 1.0f);
         ASSERT_OK(context, alp_lpv_add_blockers(lpv, &wall));
         ASSERT_OK(context, alp_lpv_propagate(lpv));
