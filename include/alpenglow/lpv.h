@@ -44,7 +44,7 @@ typedef enum alp_lpv_mode {
 typedef struct alp_lpv_options {
     size_t struct_size;
     uint32_t size[3]; ///< cells of each grid along x, y, z, [1, 512]; default 32
-    double cell;      ///< metres of a cell of the finest grid, > 0; default 0.25
+    double cell;      ///< metres of a cell of the finest grid, [1e-6, 1e12]; default 0.25
     double centre[3]; ///< metres: the centre of the grids at first; default 0
     /// Grids inside each other, [1, 8]; default 1. The cells of each are twice as large as those
     /// of the one before.
@@ -117,7 +117,8 @@ ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascad
 /// Injects blockers. One call is one view: views are merged, as they show the same surfaces.
 /// @return ALP_OK; INVALID_ARGUMENT (no areas; the volume has no blockers)
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels);
-/// Lets light travel. Cost: about 10 ns a cell and step on one core, 18 with blockers.
+/// Lets light travel. Cost: about 20 ns a cell and step on one core, 40 with blockers, 60 with
+/// bounces too.
 /// @return ALP_OK; OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_lpv_propagate(alp_lpv *lpv);
 

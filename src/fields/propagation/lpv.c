@@ -12,6 +12,7 @@
 enum { ITERATIONS_MOST = 4096, CASCADE_ITERATIONS = 8 };
 /// Cells from the origin that a grid may lie at: a double holds a thousandth of one there.
 static const double FARTHEST = 1099511627776.0;
+static const double CELL_LEAST = 1e-6, CELL_MOST = 1e12; // metres
 /// Share of half a grid by which its centre lies ahead of the eye.
 static const double AHEAD = 0.5;
 /// Mean of the direction over the far face, and over a side face along the way and aside: the
@@ -75,6 +76,10 @@ static alp_result check_options(alp_context *context, const alp_lpv_options *o)
     if (o->struct_size != sizeof *o) {
         return alpi_fail(context, code, "lpv options are not from _default()");
     }
+    if (!(o->cell >= CELL_LEAST && o->cell <= CELL_MOST)) {
+        return alpi_fail(context, code, "lpv: cells of %g m, need a size from %g to %g", o->cell,
+                         CELL_LEAST, CELL_MOST);
+    }
     for (int k = 0; k < 3; k++) {
         if (o->size[k] < 1 || o->size[k] > ALPI_LPV_SIDE_MOST) {
             return alpi_fail(context, code, "lpv: a grid of %u cells along a side, need 1 to %d",
@@ -84,9 +89,6 @@ static alp_result check_options(alp_context *context, const alp_lpv_options *o)
             return alpi_fail(context, code, "lpv: centre %g, %g, %g is beyond 2^40 cells",
                              o->centre[0], o->centre[1], o->centre[2]);
         }
-    }
-    if (!(o->cell > 0.0) || !isfinite(o->cell)) {
-        return alpi_fail(context, code, "lpv: cells of %g m, need a finite size > 0", o->cell);
     }
     if (o->cascades < 1 || o->cascades > ALPI_LPV_CASCADES_MOST) {
         return alpi_fail(context, code, "lpv: %u cascades, need 1 to %d", o->cascades,
@@ -113,6 +115,14 @@ static alp_result check_options(alp_context *context, const alp_lpv_options *o)
 }
 
 // --- life ----------------------------------------------------------------------------------------
+
+/// Readers find the sums where they were made, also after the grids have moved.
+static void keep_corners(alp_lpv *lpv)
+{
+    for (uint32_t c = 0; c < lpv->options.cascades; c++) {
+        memcpy(lpv->grids[c].sum_corner, lpv->grids[c].corner, sizeof lpv->grids[c].corner);
+    }
+}
 
 static alp_result make_grid(alp_lpv *lpv, alpi_lpv_grid *g)
 {
@@ -159,6 +169,7 @@ alp_result alp_lpv_create(alp_context *context, const alp_lpv_options *options, 
     if (result == ALP_OK) {
         const double nowhere[3] = {0.0, 0.0, 0.0};
         result = alp_lpv_follow(lpv, o.centre, nowhere);
+        keep_corners(lpv);
     }
     if (result != ALP_OK) {
         alp_lpv_destroy(lpv);
@@ -198,23 +209,26 @@ void alpi_lpv_ideal_centre(const alp_lpv *lpv, uint32_t cascade, double centre[3
 
 alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3], const double forward[3])
 {
-    double squares = 0.0;
+    double most = 0.0, squares = 0.0;
     for (int k = 0; k < 3; k++) {
-        squares += forward[k] * forward[k];
         if (!(fabs(eye[k]) <= FARTHEST * lpv->options.cell)) {
             return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
                              "lpv: the eye at %g, %g, %g is beyond 2^40 cells", eye[0], eye[1],
                              eye[2]);
         }
+        if (!isfinite(forward[k])) {
+            return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
+                             "lpv: the direction %g, %g, %g is not finite", forward[0], forward[1],
+                             forward[2]);
+        }
+        most = fmax(most, fabs(forward[k]));
     }
-    if (!isfinite(squares)) {
-        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "lpv: the direction %g, %g, %g is not finite", forward[0], forward[1],
-                         forward[2]);
+    for (int k = 0; k < 3 && most > 0.0; k++) {
+        squares += forward[k] / most * (forward[k] / most);
     }
     for (int k = 0; k < 3; k++) {
         lpv->eye[k] = eye[k];
-        lpv->forward[k] = squares > 0.0 ? forward[k] / sqrt(squares) : 0.0;
+        lpv->forward[k] = most > 0.0 ? forward[k] / most / sqrt(squares) : 0.0;
     }
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         alpi_lpv_grid *g = &lpv->grids[c];
@@ -268,6 +282,7 @@ alp_result alp_lpv_propagate(alp_lpv *lpv)
     row_loop loop = {.lpv = lpv};
     loop.step.scheme = alpi_lpv_scheme_of(o->mode);
     loop.step.wraps = lpv->wraps;
+    keep_corners(lpv);
     if (o->blockers) {
         ALP_TRY(run_loop(lpv, loops->open, (o->size[1] + 1) * (o->size[2] + 1), &loop));
     }
@@ -295,7 +310,7 @@ void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid)
     *grid = (alp_lpv_grid){.cell = g->cell, .intensities = g->sum};
     for (int k = 0; k < 3; k++) {
         grid->size[k] = g->size[k];
-        grid->corner[k] = (double)g->corner[k] * g->cell;
+        grid->corner[k] = (double)g->sum_corner[k] * g->cell;
     }
 }
 

@@ -62,7 +62,7 @@ static void add_terms(const alpi_lpv_grid *g, const double p[3], float weight, l
     float part[3];
     for (int k = 0; k < 3; k++) {
         const double last = (double)g->size[k] - 1.0;
-        double at = p[k] / g->cell - (double)g->corner[k] - 0.5;
+        double at = p[k] / g->cell - (double)g->sum_corner[k] - 0.5;
         at = at > 0.0 ? (at < last ? at : last) : 0.0;
         low[k] = (uint32_t)at;
         part[k] = (float)(at - (double)low[k]);

@@ -52,6 +52,7 @@ typedef struct alpi_lpv_grid {
     uint32_t size[3];
     double cell;           // metres
     int64_t corner[3];     // of cell 0, 0, 0, in cells from the origin
+    int64_t sum_corner[3]; // the same when `sum` was made
     float *injected, *sum; // [z][y][channel × 4 + term][x]; `sum` is what readers see
     // [z][y][channel × 4 + term][x + 2], a cell more at both ends: what travels next. It is scaled
     // for the step, and p × the cosine `aside`.
