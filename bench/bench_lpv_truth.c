@@ -3,8 +3,8 @@
 // references: the first reflection alone, and all bounces. Neither has a sky.
 #include "bench.h"
 
-#include "base/random.h"
 #include "fields/propagation/lpv.h"
+#include "scene/area_points.h"
 
 #include <alpenglow/probes.h>
 
@@ -41,33 +41,23 @@ typedef struct truth_case {
 
 // --- points --------------------------------------------------------------------------------------
 
-/// Points spread over surfaces by area, a thousandth of the scene's size above them.
+/// Points spread over fronts of surfaces by area, a little above them.
 static void place_on_surfaces(const truth_case *c, float (*positions)[3], float (*normals)[3])
 {
     const alp_scene *s = c->scene.scene;
     const float lift = 1e-4f * vec3_length(vec3_sub(s->bounds_max, s->bounds_min));
-    double *ends = bench_allocate(s->triangle_count, sizeof *ends), sum = 0.0;
-    for (uint32_t t = 0; t < s->triangle_count; t++) {
+    alpi_area_point *points = bench_allocate(c->count, sizeof *points);
+    (void)alpi_area_points(s, c->count, points); // a scene of the bench has area
+    for (uint32_t i = 0; i < c->count; i++) {
+        const float b1 = points[i].b1, b2 = points[i].b2;
         vec3 k[3];
-        alpi_triangle_corners(s, t, k);
-        sum += s->triangle_usable[t] ? vec3_triangle_area(k[0], k[1], k[2]) : 0.0;
-        ends[t] = sum;
-    }
-    for (uint32_t i = 0, t = 0; i < c->count; i++) {
-        const vec2 u = alpi_sample_2d(STREAM, i);
-        const float root = sqrtf(u.x);
-        vec3 k[3];
-        while (t + 1 < s->triangle_count && ends[t] <= (i + 0.5) / c->count * sum) {
-            t++;
-        }
-        alpi_triangle_corners(s, t, k);
+        alpi_triangle_corners(s, points[i].triangle, k);
         const vec3 n = vec3_triangle_normal(k[0], k[1], k[2], (vec3){0.0f, 1.0f, 0.0f});
-        vec3 p = vec3_scale(k[0], 1.0f - root);
-        p = vec3_mad(vec3_mad(p, root * (1.0f - u.y), k[1]), root * u.y, k[2]);
-        vec3_store(positions[i], vec3_mad(p, lift, n));
+        const vec3 p = vec3_mad(vec3_scale(k[0], 1.0f - b1 - b2), b1, k[1]);
+        vec3_store(positions[i], vec3_mad(vec3_mad(p, b2, k[2]), lift, n));
         vec3_store(normals[i], n);
     }
-    free(ends);
+    free(points);
 }
 
 static alp_result find_truth(truth_case *c)

@@ -61,8 +61,8 @@ static void put_axes(FILE *file, const plot_panel *p, const scale *up)
             p->across);
 }
 
-/// Dots, or a line. Of values closer than a pixel, the least and the most are drawn, so that no
-/// jump is lost.
+/// Dots, or a line. If values are closer than a pixel, their least and their most are drawn, so
+/// that no jump is lost.
 static void put_line(FILE *file, const plot_line *line, const scale *up, int color)
 {
     const int last = line->count - 1;

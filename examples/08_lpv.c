@@ -43,7 +43,7 @@ static alp_lpv_surfels draw_map(float height)
                              .albedo = (const float(*)[3])albedo};
 }
 
-/// What a host does in each frame.
+/// The work of a host in each frame.
 static alp_result light_frame(alp_lpv *lpv, float height)
 {
     const alp_lpv_surfels map = draw_map(height);

@@ -108,8 +108,8 @@ typedef struct alp_lpv_surfels {
 #define ALP_LPV_ALL_CASCADES UINT32_MAX
 /// Injects light: each surfel is a virtual point light half a cell above its surface.
 /// @param cascade the grid that the map was made for, 0 the finest. Its light enters that grid and
-///        coarser ones. Where a grid ends its map fades, and the next map takes over. The last cell
-///        of the coarsest of several grids fades too, so that nothing jumps when grids move.
+///        coarser ones. At the end of a grid its map fades, and the next map takes over. The last
+///        cell of the coarsest of several grids fades too, so that nothing jumps when grids move.
 ///        ALP_LPV_ALL_CASCADES: the map holds all light of its lamp.
 /// @return ALP_OK; INVALID_ARGUMENT (no flux, or no such cascade)
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade,
@@ -170,7 +170,7 @@ ALP_API ALP_NODISCARD alp_result alp_lpv_light_scene(alp_lpv *lpv, const alp_sce
                                                      const alp_lpv_scene_options *options,
                                                      alp_lpv_report *report);
 
-/// What a grid is and holds, for pictures and tests.
+/// A grid and its sums, for pictures and tests.
 typedef struct alp_lpv_grid {
     uint32_t size[3];
     double cell;      ///< metres

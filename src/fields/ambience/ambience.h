@@ -116,7 +116,7 @@ static inline double alpi_ambience_cell(const alp_ambience *ambience, uint32_t l
     return ambience->unit * (double)alpi_graph_width(level);
 }
 
-/// What readers see.
+/// The snapshot that readers begin with.
 static inline const alp_ambience_snapshot *alpi_ambience_published(const alp_ambience *ambience)
 {
     return ambience->snapshots.all[atomic_load(&ambience->snapshots.current)];

@@ -24,7 +24,7 @@ struct alp_lpv {
 /// Centre of grid `cascade` before it is rounded to whole cells, in metres.
 void alpi_lpv_ideal_centre(const alp_lpv *lpv, uint32_t cascade, double centre[3]);
 
-/// Where grids give way to coarser ones: a share is 1 inside of a grid and 0 a cell before its
+/// How grids give way to coarser ones: a share is 1 inside of a grid and 0 a cell before its
 /// border. It follows the eye itself, not the grid that moves by whole cells behind it, so that
 /// nothing jumps when the grid moves.
 typedef struct alpi_lpv_fades {

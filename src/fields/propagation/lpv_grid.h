@@ -81,7 +81,7 @@ static inline size_t alpi_lpv_wide_cells(const uint32_t size[3])
     return ((size_t)size[0] + 2) * size[1] * size[2];
 }
 
-/// What one step does. `wraps`: light that leaves on one side enters on the other (tests).
+/// The kind of a step. `wraps`: light that leaves on one side enters on the other (tests).
 typedef struct alpi_lpv_step {
     alpi_lpv_scheme scheme;
     bool blocked, reflects, wraps;

@@ -21,7 +21,7 @@ alp_result alpi_surfels_create(alp_context *context, uint32_t count, alpi_surfel
 void alpi_surfels_destroy(alp_context *context, alpi_surfels *surfels);
 alp_lpv_surfels alpi_surfels_view(const alpi_surfels *surfels);
 
-/// What maps are traced in.
+/// The scene that maps are traced in.
 typedef struct alpi_map_scene {
     const alp_scene *scene;
     const alpi_tracer *tracer;

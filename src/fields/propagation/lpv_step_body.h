@@ -41,7 +41,7 @@ static inline float sum_of_four(float i, float a, float b)
     return larger(i + a, b) + larger(fabsf(i - a), b);
 }
 
-/// What the fluxes to all 30 faces are multiplied by, so that they add up to 4π p0.
+/// Factor on the fluxes to all 30 faces, with which they add up to 4π p0.
 /// @param vx, vy, vz the terms along the axes × `aside`, as `light` holds them
 static inline float scale_of(reading r, float i, float vx, float vy, float vz)
 {
@@ -58,8 +58,8 @@ static inline float scale_of(reading r, float i, float vx, float vy, float vz)
 
 // --- gathering -----------------------------------------------------------------------------------
 
-/// What passes five faces, per solid angle: the far one, the sum of the four at the sides, and
-/// their differences along the other two axes.
+/// Light that passes five faces, per solid angle: the far one, the sum of the four at the sides,
+/// and their differences along the other two axes.
 typedef struct passed {
     float far, sides, b, c;
 } passed;
@@ -69,7 +69,8 @@ typedef struct cell_light {
     float i, va, vb, vc;
 } cell_light;
 
-/// What light sends along an axis. Scalars, or the compiler does not vectorise the loop over cells.
+/// Light that a cell sends along an axis. Scalars, or the compiler does not vectorise the loop over
+/// cells.
 /// @param o0 … o4 shares that pass the far face, and sides at + and − of two axes
 static inline passed send(reading r, float sign, cell_light p, float o0, float o1, float o2,
                           float o3, float o4)
@@ -92,7 +93,8 @@ typedef struct row_work {
     const float *albedo[DIRECTIONS];                   // of the faces that light leaves by
 } row_work;
 
-/// What arrives in a cell by direction d. a, b, c: the terms of its axis and of the two others.
+/// Light that arrives in a cell by direction d. a, b, c: the terms of its axis and of the two
+/// others.
 static inline passed arrive(const row_work *w, reading r, uint32_t x, bool blocked, int d, size_t a,
                             size_t b, size_t c)
 {
