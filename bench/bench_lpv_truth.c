@@ -79,12 +79,19 @@ static alp_result find_truth(truth_case *c)
 
 // --- rows ----------------------------------------------------------------------------------------
 
+/// Whether any light reaches a point. Faces inside of solids are never seen.
+static bool is_lit(const truth_case *c, uint32_t i)
+{
+    const float *e = c->truth[DEPTHS - 1][i];
+    return e[0] + e[1] + e[2] > 0.0f;
+}
+
 /// 100 Σ|E − truth| / Σ truth, and 100 Σ(E − truth) / Σ truth.
 static void judge(const truth_case *c, int place, int depth, double *error, double *bias)
 {
     double apart = 0.0, more = 0.0, all = 0.0;
     for (uint32_t i = (uint32_t)place * c->count; i < (uint32_t)(place + 1) * c->count; i++) {
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3 && is_lit(c, i); k++) {
             const double d = (double)c->values[i][k] - (double)c->truth[depth][i][k];
             apart += fabs(d);
             more += d;
