@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surfels into grids: light into cells, blockers into nodes. Places are found first. Then each
-// worker takes a slab of the grid and adds the surfels of its slab in their order, so that sums do
-// not depend on the number of workers.
+// worker takes layers of the grid and adds the surfels there in their order, so that sums do not
+// depend on the number of workers.
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "fields/propagation/lpv.h"
@@ -10,9 +10,9 @@
 #include <string.h>
 
 enum { GRAIN = 4096, SLABS = 8 };
-static const uint32_t OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1; // in place of a place
-/// A virtual light lies half a cell above its surface. Surfaces often lie at halves of cells, and
-/// there rounding would choose between two cells: a thousandth more makes the choice.
+static const float UNUSABLE = -1.0f; // in place of a share
+/// A virtual light lies half a cell above its surface. Surfaces often lie between two cells, and
+/// there rounding would choose: a thousandth more makes the choice.
 static const double ABOVE = 0.5, BEYOND = 0.001;
 /// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
 static const double BORDER = 0.15;
@@ -21,6 +21,7 @@ typedef struct injection {
     alp_lpv *lpv;
     const alp_lpv_surfels *surfels;
     alpi_lpv_grid *grid;
+    uint32_t ends[3]; // cells or nodes of the grid
     uint32_t index;   // of the grid
     uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
     bool blockers;
@@ -55,14 +56,6 @@ static bool is_usable(const injection *in, uint32_t i)
 
 // --- places --------------------------------------------------------------------------------------
 
-/// Position in cells from the corner of a grid.
-static void place_in(const alpi_lpv_grid *g, const float position[3], double at[3])
-{
-    for (int k = 0; k < 3; k++) {
-        at[k] = (double)position[k] / g->cell - (double)g->corner[k];
-    }
-}
-
 /// Share that the coarsest of several grids takes: its last cell fades, or light would jump where
 /// the grid moves on. alp_lpv_options_for_scene leaves that cell empty. A single grid takes all.
 static double find_last_share(const alpi_lpv_fades *f, const double p[3])
@@ -91,28 +84,54 @@ static double find_weight(const injection *in, const float position[3])
     return all ? 1.0 - finer * (1.0 - own) : finer * own;
 }
 
-static uint32_t find_place(const injection *in, uint32_t i)
+/// Share of the upper of two cells. Along its normal a surfel lies in one cell, or light would get
+/// behind its surface. Aside it is shared by distance, or light would jump as it moves.
+/// @param part of the way from centre to centre   @param n component of the normal
+static double find_part(double part, double n)
+{
+    const double wide = fmax(1.0 - n * n, 1e-9); // of the way, about its middle
+    return fmin(fmax((part - 0.5) / wide + 0.5, 0.0), 1.0);
+}
+
+/// Place of a surfel along one axis, found in the world, so that it is the same for all grids of a
+/// cell's size. All light of a cell at the end of a grid stays in it. Nodes outside take their
+/// share of blockers.
+/// @return false outside of the grid
+static bool find_along(const injection *in, uint32_t i, uint32_t axis, alpi_lpv_place *place)
+{
+    const alpi_lpv_grid *g = in->grid;
+    const double n = (double)in->surfels->normals[i][axis];
+    const double position = (double)in->surfels->positions[i][axis] / g->cell;
+    const double last = (double)in->ends[axis] - 1.0;
+    // Nodes lie at corners of cells, virtual lights half a cell above their surfaces.
+    const double at = position + (in->blockers ? BEYOND * n : (ABOVE + BEYOND) * n - 0.5);
+    const double below = floor(at), low = below - (double)g->corner[axis], part = at - below;
+    const double reach = in->blockers ? 1.0 : 0.5; // beyond the first and the last
+    if (!(low + part >= -reach && low + part < last + reach)) {
+        return false;
+    }
+    place->low[axis] = (int16_t)low;
+    place->part[axis] = (float)find_part(part, n);
+    if (!in->blockers && (low < 0.0 || low >= last)) {
+        place->low[axis] = (int16_t)fmax(low, 0.0);
+        place->part[axis] = 0.0f;
+    }
+    return true;
+}
+
+static alpi_lpv_place find_place(const injection *in, uint32_t i)
 {
     const alp_lpv_surfels *s = in->surfels;
-    const alpi_lpv_grid *g = in->grid;
+    alpi_lpv_place place = {.share = UNUSABLE};
     if (!is_usable(in, i)) {
-        return UNUSABLE;
+        return place;
     }
     const float radius = s->radii != NULL ? s->radii[i] : 0.0f;
-    if (radius > 0.0f && 2.0 * (double)radius < g->cell) {
-        return OUTSIDE;
-    }
-    double at[3];
-    uint32_t place = 0;
-    place_in(g, s->positions[i], at);
-    for (int k = 2; k >= 0; k--) { // nodes lie at corners of cells
-        const double end = (double)g->size[k] + (in->blockers ? 1.0 : 0.0);
-        const double n = (double)s->normals[i][k];
-        at[k] += in->blockers ? 0.5 + BEYOND * n : (ABOVE + BEYOND) * n;
-        if (!(at[k] >= 0.0) || at[k] >= end) {
-            return OUTSIDE;
-        }
-        place = place * (uint32_t)end + (uint32_t)at[k];
+    const bool small = radius > 0.0f && 2.0 * (double)radius < in->grid->cell;
+    place.share = 0.0f;
+    if (!small && find_along(in, i, 0, &place) && find_along(in, i, 1, &place) &&
+        find_along(in, i, 2, &place)) {
+        place.share = in->blockers ? 1.0f : (float)find_weight(in, s->positions[i]);
     }
     return place;
 }
@@ -130,37 +149,80 @@ static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t
 // --- adding --------------------------------------------------------------------------------------
 
 /// A cosine lobe of flux Φ about n: Φ/π (1/4 + n·ω/2).
-static void add_lobe(float *p, size_t stride, float flux_over_pi, const float n[3])
+static void make_lobe(float flux_over_pi, const float n[3], float lobe[ALPI_LPV_TERMS])
 {
-    p[0] += 0.25f * flux_over_pi;
-    p[stride] += 0.5f * flux_over_pi * n[0];
-    p[2 * stride] += 0.5f * flux_over_pi * n[1];
-    p[3 * stride] += 0.5f * flux_over_pi * n[2];
-}
-
-static void add_light(const injection *in, uint32_t i, uint32_t place)
-{
-    const alpi_lpv_grid *g = in->grid;
-    const uint32_t x = place % g->size[0];
-    const float share = (float)(find_weight(in, in->surfels->positions[i]) / ALPI_PI);
-    float *cell = g->injected + (size_t)(place / g->size[0]) * ALPI_LPV_ROWS * g->size[0] + x;
-    for (uint32_t channel = 0; channel < 3 && share > 0.0f; channel++) {
-        add_lobe(cell + (size_t)channel * ALPI_LPV_TERMS * g->size[0], g->size[0],
-                 in->surfels->flux[i][channel] * share, in->surfels->normals[i]);
+    lobe[0] = 0.25f * flux_over_pi;
+    for (int k = 0; k < 3; k++) {
+        lobe[1 + k] = 0.5f * flux_over_pi * n[k];
     }
 }
 
-/// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s².
-static void add_blocker(const injection *in, uint32_t i, uint32_t place)
+static void add_light(const alpi_lpv_grid *g, const uint32_t cell[3], float share,
+                      const float terms[ALPI_LPV_ROWS])
+{
+    const size_t n = g->size[0], row = (size_t)cell[2] * g->size[1] + cell[1];
+    float *rows = g->injected + row * ALPI_LPV_ROWS * n + cell[0];
+    for (size_t t = 0; t < ALPI_LPV_ROWS; t++) {
+        rows[t * n] += share * terms[t];
+    }
+}
+
+static void add_blocker(const alpi_lpv_grid *g, const uint32_t cell[3], float share,
+                        const float terms[ALPI_LPV_ROWS])
+{
+    const size_t wide = g->size[0] + 1, row = (size_t)cell[2] * (g->size[1] + 1) + cell[1];
+    float *node = g->view + (row * wide + cell[0]) * ALPI_LPV_NODE_TERMS;
+    for (size_t t = 0; t < ALPI_LPV_NODE_TERMS; t++) {
+        node[t] += share * terms[t];
+    }
+}
+
+static void make_light(const injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
+{
+    for (size_t channel = 0; channel < 3; channel++) {
+        make_lobe(in->surfels->flux[i][channel] / (float)ALPI_PI, in->surfels->normals[i],
+                  terms + channel * ALPI_LPV_TERMS);
+    }
+}
+
+/// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s². Then albedo × opacity.
+static void make_blocker(const injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
 {
     static const float grey[3] = {0.5f, 0.5f, 0.5f};
     const alp_lpv_surfels *s = in->surfels;
-    float *node = in->grid->view + (size_t)place * ALPI_LPV_NODE_TERMS;
     const float *albedo = s->albedo != NULL ? s->albedo[i] : grey;
     const float share = (float)((double)s->areas[i] / (in->grid->cell * in->grid->cell));
-    add_lobe(node, 1, share, s->normals[i]);
+    make_lobe(share, s->normals[i], terms);
     for (int k = 0; k < 3; k++) {
-        node[ALPI_LPV_TERMS + k] += 0.25f * share * albedo[k];
+        terms[ALPI_LPV_TERMS + k] = 0.25f * share * albedo[k];
+    }
+}
+
+/// Adds surfel i to those of the eight cells round its place whose layers are in [first, end).
+static void add_surfel(const injection *in, uint32_t i, uint32_t first, uint32_t end)
+{
+    const alpi_lpv_place *place = &in->lpv->places[i];
+    float terms[ALPI_LPV_ROWS];
+    if (place->low[2] + 1 < (int)first || place->low[2] >= (int)end) {
+        return;
+    }
+    if (in->blockers) {
+        make_blocker(in, i, terms);
+    } else {
+        make_light(in, i, terms);
+    }
+    for (uint32_t c = 0; c < 8; c++) {
+        uint32_t cell[3];
+        float share = place->share;
+        for (uint32_t k = 0; k < 3; k++) {
+            const bool upper = (c >> k & 1u) != 0;
+            cell[k] = (uint32_t)(place->low[k] + upper); // one below the first is beyond the last
+            share *= upper ? place->part[k] : 1.0f - place->part[k];
+        }
+        if (share > 0.0f && cell[0] < in->ends[0] && cell[1] < in->ends[1] && cell[2] >= first &&
+            cell[2] < end) {
+            (in->blockers ? add_blocker : add_light)(in->grid, cell, share, terms);
+        }
     }
 }
 
@@ -168,18 +230,10 @@ static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t w
 {
     (void)worker;
     const injection *in = user;
-    const size_t places =
-        in->blockers ? alpi_lpv_nodes(in->grid->size) : alpi_lpv_cells(in->grid->size);
-    const uint32_t first = (uint32_t)(places * begin / SLABS),
-                   last = (uint32_t)(places * end / SLABS);
+    const uint32_t first = in->ends[2] * begin / SLABS, last = in->ends[2] * end / SLABS;
     for (uint32_t i = 0; i < in->surfels->count; i++) {
-        const uint32_t place = in->lpv->places[i];
-        if (place >= first && place < last) {
-            if (in->blockers) {
-                add_blocker(in, i, place);
-            } else {
-                add_light(in, i, place);
-            }
+        if (in->lpv->places[i].share > 0.0f) {
+            add_surfel(in, i, first, last);
         }
     }
     return ALP_OK;
@@ -188,7 +242,7 @@ static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t w
 static void count_unusable(const injection *in)
 {
     for (uint32_t i = 0; i < in->surfels->count; i++) {
-        in->lpv->skipped += in->lpv->places[i] == UNUSABLE;
+        in->lpv->skipped += in->lpv->places[i].share == UNUSABLE;
     }
 }
 
@@ -203,6 +257,9 @@ static alp_result inject(injection *in)
     }
     for (; in->index < lpv->options.cascades; in->index++) {
         in->grid = &lpv->grids[in->index];
+        for (int k = 0; k < 3; k++) {
+            in->ends[k] = in->grid->size[k] + (in->blockers ? 1 : 0);
+        }
         ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_places, in, NULL));
         ALP_TRY(alpi_parallel_for(lpv->context, SLABS, 1, add_slabs, in, NULL));
         if (in->index == finest) {

@@ -268,7 +268,7 @@ static double node_opacity(const alp_lpv *lpv, const float normal[3])
 /// Adds a view of a wall at the origin of which it sees a share.
 static void add_view(alp_lpv *lpv, const float normal[3], float share)
 {
-    const float p[1][3] = {{0.1f, -0.2f, 0.3f}}, albedo[1][3] = {{0.2f, 0.5f, 0.8f}};
+    const float p[1][3] = {{0.0f, 0.0f, 0.0f}}, albedo[1][3] = {{0.2f, 0.5f, 0.8f}};
     const float n[1][3] = {{normal[0], normal[1], normal[2]}};
     const alp_lpv_surfels s = {
         .count = 1, .positions = p, .normals = n, .areas = &share, .albedo = albedo};
