@@ -193,6 +193,7 @@ void alp_lpv_destroy(alp_lpv *lpv)
         }
     }
     alpi_release(lpv->context, lpv->places);
+    alpi_release(lpv->context, lpv->order);
     alpi_release(lpv->context, lpv);
 }
 

@@ -23,7 +23,8 @@ struct alp_lpv {
     double forward[3]; // unit, or 0
     uint64_t skipped;
     alpi_lpv_place *places; // [place_limit] of the surfels that are being added
-    size_t place_limit;
+    uint32_t *order;        // [order_limit] of surfels, by layers
+    size_t place_limit, order_limit;
     alpi_lpv_grid grids[ALPI_LPV_CASCADES_MOST];
 };
 

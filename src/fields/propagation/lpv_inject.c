@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 4096, SLABS = 8 };
+enum { GRAIN = 4096, LAYERS_MOST = ALPI_LPV_SIDE_MOST + 4 };
 static const float UNUSABLE = -1.0f; // in place of a share
 /// A virtual light lies half a cell above its surface. Surfaces often lie between two cells, and
 /// there rounding would choose: a thousandth more makes the choice.
@@ -26,6 +26,7 @@ typedef struct injection {
     uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
     bool blockers;
     alpi_lpv_fades fades;
+    uint32_t layers[LAYERS_MOST]; // first surfel in `order` whose lower layer is index − 1
 } injection;
 
 // --- what is usable ------------------------------------------------------------------------------
@@ -89,8 +90,8 @@ static double find_weight(const injection *in, const float position[3])
 /// @param part of the way from centre to centre   @param n component of the normal
 static double find_part(double part, double n)
 {
-    const double wide = fmax(1.0 - n * n, 1e-9); // of the way, about its middle
-    return fmin(fmax((part - 0.5) / wide + 0.5, 0.0), 1.0);
+    const double wide = 1.0 - n * n, from = part - 0.5 * (1.0 - wide); // of the way, in its middle
+    return from <= 0.0 ? 0.0 : from >= wide ? 1.0 : from / wide;
 }
 
 /// Place of a surfel along one axis, found in the world, so that it is the same for all grids of a
@@ -99,21 +100,21 @@ static double find_part(double part, double n)
 /// @return false outside of the grid
 static bool find_along(const injection *in, uint32_t i, uint32_t axis, alpi_lpv_place *place)
 {
-    const alpi_lpv_grid *g = in->grid;
     const double n = (double)in->surfels->normals[i][axis];
-    const double position = (double)in->surfels->positions[i][axis] / g->cell;
-    const double last = (double)in->ends[axis] - 1.0;
+    const double position = (double)in->surfels->positions[i][axis] / in->grid->cell;
+    const double corner = (double)in->grid->corner[axis], last = (double)in->ends[axis] - 1.0;
     // Nodes lie at corners of cells, virtual lights half a cell above their surfaces.
     const double at = position + (in->blockers ? BEYOND * n : (ABOVE + BEYOND) * n - 0.5);
-    const double below = floor(at), low = below - (double)g->corner[axis], part = at - below;
     const double reach = in->blockers ? 1.0 : 0.5; // beyond the first and the last
-    if (!(low + part >= -reach && low + part < last + reach)) {
+    if (!(at - corner >= -reach && at - corner < last + reach)) {
         return false;
     }
+    const int64_t toward_0 = (int64_t)at, below = toward_0 - ((double)toward_0 > at);
+    const int64_t low = below - in->grid->corner[axis];
     place->low[axis] = (int16_t)low;
-    place->part[axis] = (float)find_part(part, n);
-    if (!in->blockers && (low < 0.0 || low >= last)) {
-        place->low[axis] = (int16_t)fmax(low, 0.0);
+    place->part[axis] = (float)find_part(at - (double)below, n);
+    if (!in->blockers && (low < 0 || low >= (int64_t)last)) {
+        place->low[axis] = (int16_t)(low < 0 ? 0 : low);
         place->part[axis] = 0.0f;
     }
     return true;
@@ -131,7 +132,8 @@ static alpi_lpv_place find_place(const injection *in, uint32_t i)
     place.share = 0.0f;
     if (!small && find_along(in, i, 0, &place) && find_along(in, i, 1, &place) &&
         find_along(in, i, 2, &place)) {
-        place.share = in->blockers ? 1.0f : (float)find_weight(in, s->positions[i]);
+        const bool whole = in->blockers || in->fades.count == 1;
+        place.share = whole ? 1.0f : (float)find_weight(in, s->positions[i]);
     }
     return place;
 }
@@ -198,12 +200,13 @@ static void make_blocker(const injection *in, uint32_t i, float terms[ALPI_LPV_R
     }
 }
 
-/// Adds surfel i to those of the eight cells round its place whose layers are in [first, end).
-static void add_surfel(const injection *in, uint32_t i, uint32_t first, uint32_t end)
+/// Adds surfel i to the cells round its place in one layer, the lower or the upper one.
+static void add_surfel(const injection *in, uint32_t i, bool upper)
 {
     const alpi_lpv_place *place = &in->lpv->places[i];
+    const float share = place->share * (upper ? place->part[2] : 1.0f - place->part[2]);
     float terms[ALPI_LPV_ROWS];
-    if (place->low[2] + 1 < (int)first || place->low[2] >= (int)end) {
+    if (share <= 0.0f) {
         return;
     }
     if (in->blockers) {
@@ -211,32 +214,49 @@ static void add_surfel(const injection *in, uint32_t i, uint32_t first, uint32_t
     } else {
         make_light(in, i, terms);
     }
-    for (uint32_t c = 0; c < 8; c++) {
-        uint32_t cell[3];
-        float share = place->share;
-        for (uint32_t k = 0; k < 3; k++) {
-            const bool upper = (c >> k & 1u) != 0;
-            cell[k] = (uint32_t)(place->low[k] + upper); // one below the first is beyond the last
-            share *= upper ? place->part[k] : 1.0f - place->part[k];
-        }
-        if (share > 0.0f && cell[0] < in->ends[0] && cell[1] < in->ends[1] && cell[2] >= first &&
-            cell[2] < end) {
-            (in->blockers ? add_blocker : add_light)(in->grid, cell, share, terms);
+    for (int c = 0; c < 4; c++) {
+        const int x = c & 1, y = c >> 1;
+        const uint32_t cell[3] = {(uint32_t)(place->low[0] + x), (uint32_t)(place->low[1] + y),
+                                  (uint32_t)(place->low[2] + upper)};
+        const float part = (x != 0 ? place->part[0] : 1.0f - place->part[0]) *
+                           (y != 0 ? place->part[1] : 1.0f - place->part[1]);
+        // One below the first is beyond the last, too.
+        if (part > 0.0f && cell[0] < in->ends[0] && cell[1] < in->ends[1]) {
+            (in->blockers ? add_blocker : add_light)(in->grid, cell, share * part, terms);
         }
     }
 }
 
-static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static alp_result add_layers(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const injection *in = user;
-    const uint32_t first = in->ends[2] * begin / SLABS, last = in->ends[2] * end / SLABS;
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        if (in->lpv->places[i].share > 0.0f) {
-            add_surfel(in, i, first, last);
+    for (uint32_t z = begin; z < end; z++) {
+        const uint32_t *first = in->layers + z; // of those between layers z − 1 and z, z and z + 1
+        for (uint32_t k = first[0]; k < first[2]; k++) {
+            add_surfel(in, in->lpv->order[k], k < first[1]);
         }
     }
     return ALP_OK;
+}
+
+/// Sorts surfels by their lower layer, from −1 on, and else by their index.
+static void sort_by_layer(injection *in)
+{
+    const alp_lpv *lpv = in->lpv;
+    uint32_t *const first = in->layers;
+    memset(in->layers, 0, sizeof in->layers);
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        first[lpv->places[i].low[2] + 3] += lpv->places[i].share > 0.0f;
+    }
+    for (uint32_t z = 1; z < LAYERS_MOST; z++) {
+        first[z] += first[z - 1];
+    }
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        if (lpv->places[i].share > 0.0f) {
+            lpv->order[first[lpv->places[i].low[2] + 2]++] = i;
+        }
+    }
 }
 
 static void count_unusable(const injection *in)
@@ -255,13 +275,18 @@ static alp_result inject(injection *in)
         ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->places, &lpv->place_limit, count,
                           sizeof *lpv->places));
     }
+    if (count > lpv->order_limit) {
+        ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->order, &lpv->order_limit, count,
+                          sizeof *lpv->order));
+    }
     for (; in->index < lpv->options.cascades; in->index++) {
         in->grid = &lpv->grids[in->index];
         for (int k = 0; k < 3; k++) {
             in->ends[k] = in->grid->size[k] + (in->blockers ? 1 : 0);
         }
         ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_places, in, NULL));
-        ALP_TRY(alpi_parallel_for(lpv->context, SLABS, 1, add_slabs, in, NULL));
+        sort_by_layer(in);
+        ALP_TRY(alpi_parallel_for(lpv->context, in->ends[2], 1, add_layers, in, NULL));
         if (in->index == finest) {
             count_unusable(in);
         }
