@@ -11,7 +11,8 @@
 /// A place among the eight cells, or nodes, from `low` ≥ −1 on.
 typedef struct alpi_lpv_place {
     int16_t low[3];
-    float part[3], share; // of the upper cells; of the light that goes there, 0: nowhere
+    bool usable, held;    // any grid can hold the surfel; the present one does
+    float part[3], share; // of the upper cells; of the light that goes there
 } alpi_lpv_place;
 
 struct alp_lpv {

@@ -1,152 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Surfels into grids: light into cells, blockers into nodes. Places are found first. Then each
-// worker takes layers of the grid and adds the surfels there in their order, so that sums do not
-// depend on the number of workers.
-#include "base/memory.h"
+// Surfels into grids: light into cells, blockers into nodes. Each worker takes layers of the grid
+// and adds the surfels there in their order, so that sums do not depend on the number of workers.
 #include "base/tasks.h"
-#include "fields/propagation/lpv.h"
+#include "fields/propagation/lpv_places.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { GRAIN = 4096, LAYERS_MOST = ALPI_LPV_SIDE_MOST + 4 };
-static const float UNUSABLE = -1.0f; // in place of a share
-/// A virtual light lies half a cell above its surface. Surfaces often lie between two cells, and
-/// there rounding would choose: a thousandth more makes the choice.
-static const double ABOVE = 0.5, BEYOND = 0.001;
-/// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
-static const double BORDER = 0.15;
-
-typedef struct injection {
-    alp_lpv *lpv;
-    const alp_lpv_surfels *surfels;
-    alpi_lpv_grid *grid;
-    uint32_t ends[3]; // cells or nodes of the grid
-    uint32_t index;   // of the grid
-    uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
-    bool blockers;
-    alpi_lpv_fades fades;
-    uint32_t layers[LAYERS_MOST]; // first surfel in `order` whose lower layer is index − 1
-} injection;
-
-// --- what is usable ------------------------------------------------------------------------------
-
-static bool is_good(const float v[3], float least)
-{
-    bool good = true;
-    for (int k = 0; k < 3; k++) {
-        good = good && isfinite(v[k]) && v[k] >= least;
-    }
-    return good;
-}
-
-static bool is_usable(const injection *in, uint32_t i)
-{
-    const alp_lpv_surfels *s = in->surfels;
-    const float *n = s->normals[i], anything = -HUGE_VALF;
-    const float squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    bool good = is_good(s->positions[i], anything) && squares > 0.98f && squares < 1.02f;
-    if (in->blockers) {
-        good = good && isfinite(s->areas[i]) && s->areas[i] >= 0.0f;
-        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f));
-    } else {
-        good = good && is_good(s->flux[i], 0.0f);
-    }
-    return good && (s->radii == NULL || isfinite(s->radii[i]));
-}
-
-// --- places --------------------------------------------------------------------------------------
-
-/// Share that the coarsest of several grids takes: its last cell fades, or light would jump where
-/// the grid moves on. alp_lpv_options_for_scene leaves that cell empty. A single grid takes all.
-static double find_last_share(const alpi_lpv_fades *f, const double p[3])
-{
-    const uint32_t last = f->count - 1;
-    double least = 1.0;
-    for (int k = 0; k < 3 && last > 0; k++) {
-        const double away = fabs(p[k] - f->centre[last][k]) * f->cells[last];
-        least = f->half[k] >= 1.0 ? fmin(least, f->half[k] + 0.5 - away) : least;
-    }
-    return fmax(least, 0.0);
-}
-
-/// Share of a surfel's light that a grid takes. Maps of cascades are blended as the grids are.
-static double find_weight(const injection *in, const float position[3])
-{
-    const double p[3] = {(double)position[0], (double)position[1], (double)position[2]};
-    const alpi_lpv_fades *f = &in->fades;
-    const bool all = in->cascade == ALP_LPV_ALL_CASCADES;
-    const uint32_t map = all ? in->index : in->cascade;
-    double finer = 1.0; // what finer maps leave
-    for (uint32_t c = 0; c < map; c++) {
-        finer *= 1.0 - alpi_lpv_share(f, c, p);
-    }
-    const double own = map + 1 == f->count ? find_last_share(f, p) : alpi_lpv_share(f, map, p);
-    return all ? 1.0 - finer * (1.0 - own) : finer * own;
-}
-
-/// Share of the upper of two cells. Along its normal a surfel lies in one cell, or light would get
-/// behind its surface. Aside it is shared by distance, or light would jump as it moves.
-/// @param part of the way from centre to centre   @param n component of the normal
-static double find_part(double part, double n)
-{
-    const double wide = 1.0 - n * n, from = part - 0.5 * (1.0 - wide); // of the way, in its middle
-    return from <= 0.0 ? 0.0 : from >= wide ? 1.0 : from / wide;
-}
-
-/// Place of a surfel along one axis, found in the world, so that it is the same for all grids of a
-/// cell's size. All light of a cell at the end of a grid stays in it. Nodes outside take their
-/// share of blockers.
-/// @return false outside of the grid
-static bool find_along(const injection *in, uint32_t i, uint32_t axis, alpi_lpv_place *place)
-{
-    const double n = (double)in->surfels->normals[i][axis];
-    const double position = (double)in->surfels->positions[i][axis] / in->grid->cell;
-    const double corner = (double)in->grid->corner[axis], last = (double)in->ends[axis] - 1.0;
-    // Nodes lie at corners of cells, virtual lights half a cell above their surfaces.
-    const double at = position + (in->blockers ? BEYOND * n : (ABOVE + BEYOND) * n - 0.5);
-    const double reach = in->blockers ? 1.0 : 0.5; // beyond the first and the last
-    if (!(at - corner >= -reach && at - corner < last + reach)) {
-        return false;
-    }
-    const int64_t toward_0 = (int64_t)at, below = toward_0 - ((double)toward_0 > at);
-    const int64_t low = below - in->grid->corner[axis];
-    place->low[axis] = (int16_t)low;
-    place->part[axis] = (float)find_part(at - (double)below, n);
-    if (!in->blockers && (low < 0 || low >= (int64_t)last)) {
-        place->low[axis] = (int16_t)(low < 0 ? 0 : low);
-        place->part[axis] = 0.0f;
-    }
-    return true;
-}
-
-static alpi_lpv_place find_place(const injection *in, uint32_t i)
-{
-    const alp_lpv_surfels *s = in->surfels;
-    alpi_lpv_place place = {.share = UNUSABLE};
-    if (!is_usable(in, i)) {
-        return place;
-    }
-    const float radius = s->radii != NULL ? s->radii[i] : 0.0f;
-    const bool small = radius > 0.0f && 2.0 * (double)radius < in->grid->cell;
-    place.share = 0.0f;
-    if (!small && find_along(in, i, 0, &place) && find_along(in, i, 1, &place) &&
-        find_along(in, i, 2, &place)) {
-        const bool whole = in->blockers || in->fades.count == 1;
-        place.share = whole ? 1.0f : (float)find_weight(in, s->positions[i]);
-    }
-    return place;
-}
-
-static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const injection *in = user;
-    for (uint32_t i = begin; i < end; i++) {
-        in->lpv->places[i] = find_place(in, i);
-    }
-    return ALP_OK;
-}
 
 // --- adding --------------------------------------------------------------------------------------
 
@@ -159,27 +18,7 @@ static void make_lobe(float flux_over_pi, const float n[3], float lobe[ALPI_LPV_
     }
 }
 
-static void add_light(const alpi_lpv_grid *g, const uint32_t cell[3], float share,
-                      const float terms[ALPI_LPV_ROWS])
-{
-    const size_t n = g->size[0], row = (size_t)cell[2] * g->size[1] + cell[1];
-    float *rows = g->injected + row * ALPI_LPV_ROWS * n + cell[0];
-    for (size_t t = 0; t < ALPI_LPV_ROWS; t++) {
-        rows[t * n] += share * terms[t];
-    }
-}
-
-static void add_blocker(const alpi_lpv_grid *g, const uint32_t cell[3], float share,
-                        const float terms[ALPI_LPV_ROWS])
-{
-    const size_t wide = g->size[0] + 1, row = (size_t)cell[2] * (g->size[1] + 1) + cell[1];
-    float *node = g->view + (row * wide + cell[0]) * ALPI_LPV_NODE_TERMS;
-    for (size_t t = 0; t < ALPI_LPV_NODE_TERMS; t++) {
-        node[t] += share * terms[t];
-    }
-}
-
-static void make_light(const injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
+static void make_light(const alpi_lpv_injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
 {
     for (size_t channel = 0; channel < 3; channel++) {
         make_lobe(in->surfels->flux[i][channel] / (float)ALPI_PI, in->surfels->normals[i],
@@ -188,7 +27,7 @@ static void make_light(const injection *in, uint32_t i, float terms[ALPI_LPV_ROW
 }
 
 /// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s². Then albedo × opacity.
-static void make_blocker(const injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
+static void make_blocker(const alpi_lpv_injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
 {
     static const float grey[3] = {0.5f, 0.5f, 0.5f};
     const alp_lpv_surfels *s = in->surfels;
@@ -200,96 +39,92 @@ static void make_blocker(const injection *in, uint32_t i, float terms[ALPI_LPV_R
     }
 }
 
-/// Adds surfel i to the cells round its place in one layer, the lower or the upper one.
-static void add_surfel(const injection *in, uint32_t i, bool upper)
+/// Sums of surfels that lie between the same four places of a layer. They are next to each other in
+/// a map, and a sum in one place is faster than sums in four.
+typedef struct run {
+    int16_t low[2];
+    float sums[4][ALPI_LPV_ROWS]; // x, y: 00, 10, 01, 11
+} run;
+
+static void add_to_cell(const alpi_lpv_grid *g, const uint32_t at[3], const float *terms)
 {
-    const alpi_lpv_place *place = &in->lpv->places[i];
-    const float share = place->share * (upper ? place->part[2] : 1.0f - place->part[2]);
-    float terms[ALPI_LPV_ROWS];
-    if (share <= 0.0f) {
-        return;
+    const size_t n = g->size[0], row = (size_t)at[2] * g->size[1] + at[1];
+    float *rows = g->injected + row * ALPI_LPV_ROWS * n + at[0];
+    for (size_t t = 0; t < ALPI_LPV_ROWS; t++) {
+        rows[t * n] += terms[t];
     }
+}
+
+static void add_to_node(const alpi_lpv_grid *g, const uint32_t at[3], const float *terms)
+{
+    const size_t wide = g->size[0] + 1, row = (size_t)at[2] * (g->size[1] + 1) + at[1];
+    float *node = g->view + (row * wide + at[0]) * ALPI_LPV_NODE_TERMS;
+    for (size_t t = 0; t < ALPI_LPV_NODE_TERMS; t++) {
+        node[t] += terms[t];
+    }
+}
+
+static void end_run(const alpi_lpv_injection *in, uint32_t z, run *r)
+{
+    for (int c = 0; c < 4; c++) { // a place one below the first is beyond the last, too
+        const uint32_t at[3] = {(uint32_t)(r->low[0] + (c & 1)), (uint32_t)(r->low[1] + (c >> 1)),
+                                z};
+        if (at[0] < in->ends[0] && at[1] < in->ends[1]) {
+            (in->blockers ? add_to_node : add_to_cell)(in->grid, at, r->sums[c]);
+        }
+    }
+    memset(r->sums, 0, sizeof r->sums);
+}
+
+/// Adds a surfel to the layer below or above it.
+static void add_surfel(const alpi_lpv_injection *in, uint32_t i, bool above, run *r)
+{
+    const alpi_lpv_place *p = &in->lpv->places[i];
+    const float share = p->share * (above ? p->part[2] : 1.0f - p->part[2]);
+    const float x = p->part[0], y = p->part[1],
+                parts[4] = {(1.0f - x) * (1.0f - y), x * (1.0f - y), (1.0f - x) * y, x * y};
+    float terms[ALPI_LPV_ROWS] = {0.0f};
     if (in->blockers) {
         make_blocker(in, i, terms);
     } else {
         make_light(in, i, terms);
     }
     for (int c = 0; c < 4; c++) {
-        const int x = c & 1, y = c >> 1;
-        const uint32_t cell[3] = {(uint32_t)(place->low[0] + x), (uint32_t)(place->low[1] + y),
-                                  (uint32_t)(place->low[2] + upper)};
-        const float part = (x != 0 ? place->part[0] : 1.0f - place->part[0]) *
-                           (y != 0 ? place->part[1] : 1.0f - place->part[1]);
-        // One below the first is beyond the last, too.
-        if (part > 0.0f && cell[0] < in->ends[0] && cell[1] < in->ends[1]) {
-            (in->blockers ? add_blocker : add_light)(in->grid, cell, share * part, terms);
+        for (int t = 0; t < ALPI_LPV_ROWS; t++) {
+            r->sums[c][t] += share * parts[c] * terms[t];
         }
     }
 }
 
+/// The surfels below layer z, then those above it.
 static alp_result add_layers(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
-    const injection *in = user;
+    const alpi_lpv_injection *in = user;
     for (uint32_t z = begin; z < end; z++) {
-        const uint32_t *first = in->layers + z; // of those between layers z − 1 and z, z and z + 1
+        const uint32_t *first = in->layers + z;
+        run r = {.low = {0, 0}};
         for (uint32_t k = first[0]; k < first[2]; k++) {
-            add_surfel(in, in->lpv->order[k], k < first[1]);
+            const uint32_t i = in->lpv->order[k];
+            const alpi_lpv_place *p = &in->lpv->places[i];
+            if (p->low[0] != r.low[0] || p->low[1] != r.low[1]) {
+                end_run(in, z, &r);
+                memcpy(r.low, p->low, sizeof r.low);
+            }
+            add_surfel(in, i, k < first[1], &r);
         }
+        end_run(in, z, &r);
     }
     return ALP_OK;
 }
 
-/// Sorts surfels by their lower layer, from −1 on, and else by their index.
-static void sort_by_layer(injection *in)
+/// Into all grids from the first one on.
+static alp_result inject(alpi_lpv_injection *in, uint32_t first)
 {
-    const alp_lpv *lpv = in->lpv;
-    uint32_t *const first = in->layers;
-    memset(in->layers, 0, sizeof in->layers);
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        first[lpv->places[i].low[2] + 3] += lpv->places[i].share > 0.0f;
-    }
-    for (uint32_t z = 1; z < LAYERS_MOST; z++) {
-        first[z] += first[z - 1];
-    }
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        if (lpv->places[i].share > 0.0f) {
-            lpv->order[first[lpv->places[i].low[2] + 2]++] = i;
-        }
-    }
-}
-
-static void count_unusable(const injection *in)
-{
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        in->lpv->skipped += in->lpv->places[i].share == UNUSABLE;
-    }
-}
-
-static alp_result inject(injection *in)
-{
-    alp_lpv *lpv = in->lpv;
-    const uint32_t count = in->surfels->count, finest = in->index;
-    in->fades = alpi_lpv_find_fades(lpv, BORDER);
-    if (count > lpv->place_limit) {
-        ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->places, &lpv->place_limit, count,
-                          sizeof *lpv->places));
-    }
-    if (count > lpv->order_limit) {
-        ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->order, &lpv->order_limit, count,
-                          sizeof *lpv->order));
-    }
-    for (; in->index < lpv->options.cascades; in->index++) {
-        in->grid = &lpv->grids[in->index];
-        for (int k = 0; k < 3; k++) {
-            in->ends[k] = in->grid->size[k] + (in->blockers ? 1 : 0);
-        }
-        ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_places, in, NULL));
-        sort_by_layer(in);
-        ALP_TRY(alpi_parallel_for(lpv->context, in->ends[2], 1, add_layers, in, NULL));
-        if (in->index == finest) {
-            count_unusable(in);
-        }
+    ALP_TRY(alpi_lpv_begin_places(in));
+    for (uint32_t c = first; c < in->lpv->options.cascades; c++) {
+        ALP_TRY(alpi_lpv_find_places(in, c));
+        ALP_TRY(alpi_parallel_for(in->lpv->context, in->ends[2], 1, add_layers, in, NULL));
     }
     return ALP_OK;
 }
@@ -307,8 +142,8 @@ alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfe
     if (surfels->count > 0 && surfels->flux == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: light without flux");
     }
-    injection in = {.lpv = lpv, .surfels = surfels, .index = all ? 0 : cascade, .cascade = cascade};
-    return inject(&in);
+    alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade};
+    return inject(&in, all ? 0 : cascade);
 }
 
 /// Adds a view to the merged ones: views show the same surfaces. A view without surface at a node
@@ -341,9 +176,9 @@ alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels)
     if (surfels->count > 0 && surfels->areas == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: blockers without areas");
     }
-    injection in = {
+    alpi_lpv_injection in = {
         .lpv = lpv, .surfels = surfels, .cascade = ALP_LPV_ALL_CASCADES, .blockers = true};
-    ALP_TRY(inject(&in));
+    ALP_TRY(inject(&in, 0));
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         merge_view(&lpv->grids[c], lpv->options.mode != ALP_LPV_ACCURATE);
     }
