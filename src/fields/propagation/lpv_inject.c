@@ -118,11 +118,11 @@ static alp_result add_layers(void *user, uint32_t begin, uint32_t end, uint32_t 
     return ALP_OK;
 }
 
-/// Into all grids from the first one on.
-static alp_result inject(alpi_lpv_injection *in, uint32_t first)
+/// Into grids [first, end).
+static alp_result inject(alpi_lpv_injection *in, uint32_t first, uint32_t end)
 {
     ALP_TRY(alpi_lpv_begin_places(in));
-    for (uint32_t c = first; c < in->lpv->options.cascades; c++) {
+    for (uint32_t c = first; c < end; c++) {
         ALP_TRY(alpi_lpv_find_places(in, c));
         ALP_TRY(alpi_parallel_for(in->lpv->context, in->ends[2], 1, add_layers, in, NULL));
     }
@@ -131,19 +131,24 @@ static alp_result inject(alpi_lpv_injection *in, uint32_t first)
 
 // --- the host's calls ----------------------------------------------------------------------------
 
-alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
+static alp_result check_cascade(const alp_lpv *lpv, uint32_t cascade, const char *what)
 {
-    const bool all = cascade == ALP_LPV_ALL_CASCADES;
-    if (!all && cascade >= lpv->options.cascades) {
+    if (cascade != ALP_LPV_ALL_CASCADES && cascade >= lpv->options.cascades) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "lpv: light for cascade %u of %u; they are numbered from 0", cascade,
+                         "lpv: %s for cascade %u of %u; they are numbered from 0", what, cascade,
                          lpv->options.cascades);
     }
+    return ALP_OK;
+}
+
+alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
+{
+    ALP_TRY(check_cascade(lpv, cascade, "light"));
     if (surfels->count > 0 && surfels->flux == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: light without flux");
     }
     alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade};
-    return inject(&in, all ? 0 : cascade);
+    return inject(&in, cascade == ALP_LPV_ALL_CASCADES ? 0 : cascade, lpv->options.cascades);
 }
 
 /// Adds a view to the merged ones: views show the same surfaces. A view without surface at a node
@@ -167,19 +172,21 @@ static void merge_view(alpi_lpv_grid *g, bool by_term)
     memset(g->view, 0, nodes * N * sizeof *g->view);
 }
 
-alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels)
+alp_result alp_lpv_add_blockers(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
 {
+    const bool all = cascade == ALP_LPV_ALL_CASCADES;
     if (!lpv->options.blockers) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
                          "lpv: the volume was made without blockers");
     }
+    ALP_TRY(check_cascade(lpv, cascade, "blockers"));
     if (surfels->count > 0 && surfels->areas == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: blockers without areas");
     }
-    alpi_lpv_injection in = {
-        .lpv = lpv, .surfels = surfels, .cascade = ALP_LPV_ALL_CASCADES, .blockers = true};
-    ALP_TRY(inject(&in, 0));
-    for (uint32_t c = 0; c < lpv->options.cascades; c++) {
+    alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade, .blockers = true};
+    const uint32_t first = all ? 0 : cascade, end = all ? lpv->options.cascades : cascade + 1;
+    ALP_TRY(inject(&in, first, end));
+    for (uint32_t c = first; c < end; c++) {
         merge_view(&lpv->grids[c], lpv->options.mode != ALP_LPV_ACCURATE);
     }
     return ALP_OK;

@@ -91,7 +91,7 @@ static void light_floor(alp_lpv *lpv, int dense)
         const alp_lpv_surfels s = map_view();
         ASSERT_OK(context, alp_lpv_add_light(lpv, c, &s));
         if (lpv->options.blockers) {
-            ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+            ASSERT_OK(context, alp_lpv_add_blockers(lpv, c, &s));
         }
     }
     ASSERT_OK(context, alp_lpv_propagate(lpv));
@@ -148,6 +148,32 @@ TEST(each_place_is_lit_once)
         ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
         for (uint32_t c = 0; c < 3; c++) {
             ASSERT_NEAR(flux_in(lpv, c) / sums[c], 1.0, 1e-3);
+        }
+        alp_lpv_destroy(lpv);
+    }
+}
+
+static double opacity_in(const alp_lpv *lpv, uint32_t cascade)
+{
+    const alpi_lpv_grid *g = &lpv->grids[cascade];
+    double sum = 0.0;
+    for (size_t i = 0; i < alpi_lpv_nodes(g->size); i++) {
+        sum += (double)g->nodes[i * ALPI_LPV_NODE_TERMS];
+    }
+    return sum;
+}
+
+/// A view of a grid blocks light there alone, and a view of all grids in each.
+TEST(views_block_where_they_belong)
+{
+    for (uint32_t view = 0; view < 4; view++) {
+        alp_lpv *lpv = open_volume(8, 0.5, 3, true);
+        make_map(lpv, view < 3 ? view : 0, 4, true);
+        const alp_lpv_surfels s = map_view();
+        ASSERT_OK(context, alp_lpv_add_blockers(lpv, view < 3 ? view : ALP_LPV_ALL_CASCADES, &s));
+        for (uint32_t c = 0; c < 3; c++) {
+            const bool blocks = view == c || view == 3;
+            assert_true((opacity_in(lpv, c) > 0.0) == blocks);
         }
         alp_lpv_destroy(lpv);
     }
