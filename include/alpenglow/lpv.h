@@ -184,6 +184,8 @@ typedef struct alp_lpv_grid {
 /// @param cascade below alp_lpv_options.cascades
 /// @param grid    out; valid until the next change. Its array belongs to the volume.
 ALP_API void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid);
+/// Steps of a propagation: alp_lpv_options.iterations, or the number that 0 stands for.
+ALP_API uint32_t alp_lpv_iterations(const alp_lpv *lpv);
 /// Elements of surfels since `begin` that were left out because a value was not finite.
 ALP_API uint64_t alp_lpv_skipped(const alp_lpv *lpv);
 

@@ -315,6 +315,11 @@ void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid)
     }
 }
 
+uint32_t alp_lpv_iterations(const alp_lpv *lpv)
+{
+    return lpv->iterations;
+}
+
 uint64_t alp_lpv_skipped(const alp_lpv *lpv)
 {
     return lpv->skipped;

@@ -83,6 +83,22 @@ TEST(options_out_of_range_are_refused)
     alp_lpv_destroy(NULL);
 }
 
+/// 0 iterations stand for the longest side of one grid, and for 8 of several.
+TEST(iterations_have_a_default)
+{
+    static const uint32_t expected[2] = {9, 8};
+    for (uint32_t i = 0; i < 2; i++) {
+        alp_lpv_options o = small_options(4);
+        alp_lpv *lpv = NULL;
+        o.size[2] = 9;
+        o.cascades = i + 1;
+        o.iterations = 0;
+        ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
+        assert_int_equal(alp_lpv_iterations(lpv), expected[i]);
+        alp_lpv_destroy(lpv);
+    }
+}
+
 TEST(options_of_scenes_are_refused)
 {
     enum { BAD = 5 };

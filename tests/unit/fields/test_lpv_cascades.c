@@ -376,18 +376,19 @@ static void walk(uint32_t side, double cell, bool blockers, uint32_t frames)
 TEST(light_is_steady_while_the_camera_moves)
 {
     walk(16, 0.5, true, 60);
-    expect_steady(&steps, "floor", 1.0, 1.5);
+    expect_steady(&steps, "floor", 0.7, 1.2);
 }
 
 TEST_SLOW(light_is_steady_on_a_long_walk)
 {
     walk(16, 0.5, true, 600);
-    expect_steady(&steps, "floor", 1.0, 3.0);
+    expect_steady(&steps, "floor", 0.8, 1.2);
 }
 
 /// A scene with maps by rays. The camera moves by `step` metres a frame and the sun turns by `turn`
 /// degrees. All points are in the two finest grids.
-static void light_frames(const char *name, uint32_t frames, double step, double turn)
+static void light_frames(const char *name, uint32_t frames, uint32_t map_size, double step,
+                         double turn)
 {
     alp_scene *scene = test_load(context, name);
     const alp_scene_info info = alp_scene_get_info(scene);
@@ -403,6 +404,7 @@ static void light_frames(const char *name, uint32_t frames, double step, double 
     ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
     steps.frames = 0;
     alp_lpv_scene_options o = alp_lpv_scene_options_default();
+    o.map_size = map_size;
     o.lighting.sun.illuminance = 10.0f;
     o.lighting.sun.elevation = 0.9f;
     for (uint32_t i = 0; i < frames; i++) {
@@ -421,13 +423,16 @@ static void light_frames(const char *name, uint32_t frames, double step, double 
 /// Texels lie at the same places of the world in each frame.
 TEST_SLOW(a_scene_is_steady_while_the_camera_moves)
 {
-    light_frames("builtin:atrium", 12, 0.01, 0.0);
-    expect_steady(&steps, "atrium, camera", 3.6, 4.0);
+    light_frames("builtin:atrium", 12, 256, 0.01, 0.0);
+    expect_steady(&steps, "atrium, camera", 2.5, 4.0);
 }
 
-/// Texels move over the surfaces, from cell to cell. That is noise, which larger maps lower.
-TEST_SLOW(a_scene_is_noisy_while_the_sun_turns)
+/// Texels at the edges of shadows are lit or dark as a whole, and larger maps have smaller texels.
+/// The light itself changes by 3.2 % and 3.6 %, which maps of 4096 texels show.
+TEST_SLOW(a_scene_flickers_less_with_larger_maps)
 {
-    light_frames("builtin:atrium", 8, 0.0, 0.1);
-    expect_steady(&steps, "atrium, sun", 100.0, 250.0);
+    light_frames("builtin:atrium", 8, 256, 0.0, 0.1);
+    expect_steady(&steps, "atrium, sun", 40.0, 60.0);
+    light_frames("builtin:atrium", 5, 1024, 0.0, 0.1);
+    expect_steady(&steps, "atrium, sun, large maps", 10.0, 20.0);
 }
