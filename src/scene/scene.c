@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/area_points.h"
+#include "scene/blend_weights.h"
 #include "scene/sides.h"
 #include "scene/viewpoints.h"
 
@@ -325,13 +326,13 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
 
 alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
 {
-    alp_surface_info info = {.name = "", .material = ""};
+    alp_surface_info info = {.name = "", .material = "", .material_index = ALP_NONE};
     if (scene == NULL || index >= scene->surface_count) {
         return info;
     }
     const alpi_surface *s = &scene->surfaces[index];
     const alpi_material *m = s->material == ALPI_NONE ? NULL : &scene->materials[s->material];
-    return (alp_surface_info){.name = s->name,
+    info = (alp_surface_info){.name = s->name,
                               .material = m ? m->name : "",
                               .first_triangle = s->first_triangle,
                               .triangle_count = s->triangle_count,
@@ -340,7 +341,11 @@ alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
                               .mirrored = s->mirrored,
                               .normals_generated = s->normals_generated,
                               .emission = {m ? m->emission[0] : 0.0f, m ? m->emission[1] : 0.0f,
-                                           m ? m->emission[2] : 0.0f}};
+                                           m ? m->emission[2] : 0.0f},
+                              .material_index = s->material,
+                              .uv_slots = s->uv_slots | ((1u << s->uv_sets) - 1u)};
+    alpi_surface_normal_axes(s, info.axes);
+    return info;
 }
 
 alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// What a host draws: the arrays and values that it gets are enough to compute the library's albedo.
+#include "test_gltf.h"
+#include "test_scenes.h"
+
+#include "base/image.h"
+#include "base/memory.h"
+#include "formats/images/images.h"
+
+#include <math.h>
+
+// --- a host's own shader -------------------------------------------------------------------------
+
+static int64_t wrap(int64_t i, int64_t size, alp_wrap mode)
+{
+    if (mode == ALP_WRAP_CLAMP) {
+        return i < 0 ? 0 : i >= size ? size - 1 : i;
+    }
+    const int64_t period = mode == ALP_WRAP_MIRROR ? 2 * size : size;
+    i = (i % period + period) % period;
+    return i < size ? i : period - 1 - i;
+}
+
+static double decode(double c)
+{
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+/// Bilinear, of an 8-bit RGBA image, by public calls alone.
+static void sample(const alp_scene *scene, const alp_texture_info *t, const double uv[2], bool srgb,
+                   double rgba[4])
+{
+    const alp_image *image = alp_scene_get_image(scene, t->image);
+    assert_non_null(image);
+    const alp_image_info info = alp_image_get_info(image);
+    const uint8_t *bytes = alp_image_pixels(image);
+    double place[2];
+    for (int k = 0; k < 2; k++) {
+        const float *row = t->transform[k];
+        place[k] = (double)row[0] * uv[0] + (double)row[1] * uv[1] + (double)row[2];
+    }
+    const double x = place[0] * info.width - 0.5, y = place[1] * info.height - 0.5;
+    const int64_t x0 = (int64_t)floor(x), y0 = (int64_t)floor(y);
+    for (int c = 0; c < 4; c++) {
+        rgba[c] = 0.0;
+        for (int corner = 0; corner < 4; corner++) {
+            const int right = corner & 1, down = corner >> 1;
+            const int64_t px = wrap(x0 + right, info.width, t->wrap_u);
+            const int64_t py = wrap(y0 + down, info.height, t->wrap_v);
+            const double wx = x - floor(x), wy = y - floor(y);
+            const double byte = bytes[4 * (py * info.width + px) + c] / 255.0;
+            rgba[c] += (right ? wx : 1.0 - wx) * (down ? wy : 1.0 - wy) *
+                       (srgb && c < 3 ? decode(byte) : byte);
+        }
+    }
+}
+
+/// The formulas of geometry.h: albedo in three channels, and alpha.
+static void shade(const alp_scene *scene, uint32_t triangle, double b1, double b2, double rgba[4])
+{
+    const alp_geometry g = alp_scene_get_geometry(scene);
+    const alp_surface_info surface = alp_scene_get_surface(scene, g.triangle_surfaces[triangle]);
+    const alp_material_info m = alp_scene_get_material(scene, surface.material_index);
+    const double shares[3] = {1.0 - b1 - b2, b1, b2};
+    double uv[2] = {0.0, 0.0}, vertex[4] = {0.0, 0.0, 0.0, 0.0}, texel[4] = {1.0, 1.0, 1.0, 1.0};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t v = g.triangles[triangle][k];
+        for (int i = 0; i < 2 && g.uvs[m.base_color_texture.uv_slot] != NULL; i++) {
+            uv[i] += shares[k] * (double)g.uvs[m.base_color_texture.uv_slot][v][i];
+        }
+        for (int i = 0; i < 4; i++) {
+            vertex[i] += shares[k] * (g.colors != NULL ? (double)g.colors[v][i] : 1.0);
+        }
+    }
+    if (m.base_color_texture.image != ALP_NONE) {
+        sample(scene, &m.base_color_texture, uv, true, texel);
+    }
+    for (int i = 0; i < 4; i++) {
+        rgba[i] = (double)m.base_color[i] * vertex[i] * texel[i];
+        rgba[i] = i < 3 ? fmin(fmax(rgba[i], 0.0), 0.95) : rgba[i];
+    }
+}
+
+static void check_albedo(const alp_scene *scene)
+{
+    const alp_geometry g = alp_scene_get_geometry(scene);
+    for (uint32_t t = 0; t < g.triangle_count; t++) {
+        for (int i = 0; i < 25; i++) {
+            const double b1 = 0.05 + 0.18 * (i % 5), b2 = (0.95 - b1) * (i / 5) / 4.0;
+            double rgba[4];
+            shade(scene, t, b1, b2, rgba);
+            const vec3 albedo = alpi_surface_albedo(scene, t, (float)b1, (float)b2);
+            ASSERT_NEAR(rgba[0], albedo.x, 2e-5);
+            ASSERT_NEAR(rgba[1], albedo.y, 2e-5);
+            ASSERT_NEAR(rgba[2], albedo.z, 2e-5);
+            if (alp_scene_get_material(scene, 0).alpha_mode == ALP_ALPHA_MASK) {
+                ASSERT_NEAR(rgba[3], alpi_surface_alpha(scene, t, (float)b1, (float)b2), 2e-5);
+            }
+        }
+    }
+}
+
+// --- scenes without textures ---------------------------------------------------------------------
+
+TEST_WITH_CONTEXT(the_cornell_box_is_drawn_from_its_arrays, 1)
+{
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    const alp_scene_info info = alp_scene_get_info(scene);
+    const alp_geometry g = alp_scene_get_geometry(scene);
+    assert_int_equal(g.triangle_count, info.triangles);
+    assert_int_equal(g.vertex_count, info.vertices);
+    double area = 0.0;
+    uint32_t before = 0;
+    for (uint32_t t = 0; t < g.triangle_count; t++) {
+        double e[2][3], n[3];
+        for (int k = 0; k < 3; k++) {
+            e[0][k] = (double)g.positions[g.triangles[t][1]][k] -
+                      (double)g.positions[g.triangles[t][0]][k];
+            e[1][k] = (double)g.positions[g.triangles[t][2]][k] -
+                      (double)g.positions[g.triangles[t][0]][k];
+        }
+        for (int k = 0; k < 3; k++) {
+            n[k] = e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3];
+        }
+        const double twice = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        assert_true(g.triangle_usable[t]);
+        area += 0.5 * twice;
+        double along = 0.0, length = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const double m = (double)g.normals[g.triangles[t][0]][k];
+            along += m * n[k] / twice;
+            length += m * m;
+        }
+        ASSERT_NEAR(length, 1.0, 1e-6);
+        ASSERT_NEAR(along, 1.0, 2e-5); // the quads are nearly flat
+        const uint32_t s = g.triangle_surfaces[t];
+        assert_true(s >= before && s < info.surfaces);
+        const alp_surface_info surface = alp_scene_get_surface(scene, s);
+        assert_true(t >= surface.first_triangle &&
+                    t - surface.first_triangle < surface.triangle_count);
+        assert_string_equal(alp_scene_get_material(scene, surface.material_index).name,
+                            surface.material);
+        before = s;
+    }
+    ASSERT_NEAR(area, info.area, 1e-6 * info.area);
+    check_albedo(scene);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(arrays_of_a_mesh_come_back, 1)
+{
+    static const float positions[4][3] = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {2, 3, 0}};
+    static const float normals[4][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
+    static const float uvs[4][2] = {{0, 1}, {1, 1}, {0, 0}, {1, 0}};
+    static const uint32_t indices[3][3] = {{0, 1, 2}, {1, 3, 2}, {3, 3, 2}};
+    const alp_mesh mesh = {.vertex_count = 4,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .uvs = uvs[0],
+                           .triangle_count = 3,
+                           .indices = indices[0],
+                           .base_color = {0.25f, 0.5f, 0.75f},
+                           .double_sided = true};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    const alp_geometry g = alp_scene_get_geometry(scene);
+    assert_int_equal(g.vertex_count, 4);
+    assert_int_equal(g.triangle_count, 3);
+    assert_memory_equal(g.positions, positions, sizeof positions);
+    assert_memory_equal(g.normals, normals, sizeof normals);
+    assert_memory_equal(g.uvs[1], uvs, sizeof uvs);
+    assert_memory_equal(g.triangles, indices, sizeof indices);
+    assert_null(g.uvs[2]);
+    assert_null(g.colors);
+    assert_true(g.triangle_usable[0] && g.triangle_usable[1]);
+    assert_false(g.triangle_usable[2]); // without area
+    const alp_surface_info surface = alp_scene_get_surface(scene, 0);
+    assert_int_equal(surface.uv_slots, 3);
+    assert_int_equal(surface.material_index, 0);
+    for (int k = 0; k < 9; k++) { // the axes of the world
+        ASSERT_NEAR(surface.axes[k / 3][k % 3], k % 4 == 0 ? 1.0 : 0.0, 0.0);
+    }
+    const alp_material_info m = alp_scene_get_material(scene, 0);
+    ASSERT_NEAR(m.base_color[1], 0.5, 0.0);
+    ASSERT_NEAR(m.base_color[3], 1.0, 0.0);
+    assert_true(m.double_sided);
+    assert_int_equal(m.base_color_texture.image, ALP_NONE);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(nothing_is_described_by_defaults, 1)
+{
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    const alp_scene_info info = alp_scene_get_info(scene);
+    const alp_geometry g = alp_scene_get_geometry(NULL);
+    assert_int_equal(g.triangle_count, 0);
+    assert_null(g.positions);
+    assert_null(alp_scene_get_image(scene, 0)); // it has none
+    assert_null(alp_scene_get_image(NULL, 0));
+    assert_null(alp_image_pixels(NULL));
+    assert_int_equal(alp_scene_get_surface(scene, info.surfaces).material_index, ALP_NONE);
+    const alp_material_info others[] = {alp_scene_get_material(NULL, 0),
+                                        alp_scene_get_material(scene, info.materials),
+                                        alp_scene_get_material(scene, ALP_NONE)};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        assert_string_equal(others[i].name, "");
+        ASSERT_NEAR(others[i].base_color[0], 0.5, 0.0); // the albedo without a material
+        assert_int_equal(others[i].base_color_texture.image, ALP_NONE);
+        assert_int_equal(others[i].alpha_mode, ALP_ALPHA_OPAQUE);
+    }
+    alp_scene_destroy(scene);
+}
