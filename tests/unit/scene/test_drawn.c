@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What a host draws: the arrays and values that it gets are enough to compute the library's albedo.
-#include "test_gltf.h"
-#include "test_scenes.h"
+#include "drawn_asset.h"
 
-#include "base/image.h"
-#include "base/memory.h"
-#include "formats/images/images.h"
+#include "scene/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // --- a host's own shader -------------------------------------------------------------------------
 
@@ -207,6 +205,83 @@ TEST_WITH_CONTEXT(nothing_is_described_by_defaults, 1)
         ASSERT_NEAR(others[i].base_color[0], 0.5, 0.0); // the albedo without a material
         assert_int_equal(others[i].base_color_texture.image, ALP_NONE);
         assert_int_equal(others[i].alpha_mode, ALP_ALPHA_OPAQUE);
+    }
+    alp_scene_destroy(scene);
+}
+
+// --- a textured material -------------------------------------------------------------------------
+
+TEST_WITH_CONTEXT(a_textured_material_is_shaded_as_the_library_does, 1)
+{
+    static const char *const textures[] = {
+        "'index':0", "'index':2,'texCoord':1",
+        "'index':0,'extensions':{'KHR_texture_transform':{'offset':[-0.7,0.4],'scale':[2.5,-3],"
+        "'rotation':0.6,'texCoord':1}}"};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        char material[1024];
+        snprintf(material, sizeof material,
+                 "{'name':'m','alphaMode':'MASK','alphaCutoff':0.3,'pbrMetallicRoughness':{"
+                 "'metallicFactor':0,'baseColorFactor':[1,0.5,0.25,0.75],'baseColorTexture':{%s}}}",
+                 textures[i]);
+        alp_scene *scene = drawn_asset(context, material);
+        const alp_material_info m = alp_scene_get_material(scene, 0);
+        assert_string_equal(m.name, "m");
+        assert_int_equal(m.alpha_mode, ALP_ALPHA_MASK);
+        ASSERT_NEAR(m.alpha_cutoff, 0.3, 1e-7);
+        assert_non_null(alp_scene_get_geometry(scene).colors);
+        assert_int_equal(alp_scene_get_surface(scene, 0).uv_slots, 3);
+        check_albedo(scene);
+        alp_scene_destroy(scene);
+    }
+}
+
+TEST_WITH_CONTEXT(each_texture_comes_with_its_factor, 1)
+{
+    alp_scene *scene = drawn_asset(
+        context,
+        "{'doubleSided':true,'alphaMode':'BLEND','emissiveFactor':[0.5,1,0.25],"
+        "'emissiveTexture':{'index':0},'occlusionTexture':{'index':2,'strength':0.5,'texCoord':1},"
+        "'pbrMetallicRoughness':{'metallicFactor':0.125,'metallicRoughnessTexture':{'index':2}},"
+        "'extensions':{'KHR_materials_emissive_strength':{'emissiveStrength':8},"
+        "'KHR_materials_transmission':{'transmissionFactor':0.75,'transmissionTexture':{"
+        "'index':0}}}}");
+    const alp_material_info m = alp_scene_get_material(scene, 0);
+    assert_true(m.double_sided);
+    assert_int_equal(m.alpha_mode, ALP_ALPHA_BLEND);
+    ASSERT_NEAR(m.emission[0], 4.0, 0.0);
+    ASSERT_NEAR(m.emission[1], 8.0, 0.0);
+    ASSERT_NEAR(m.metallic, 0.125, 0.0);
+    ASSERT_NEAR(m.occlusion_strength, 0.5, 0.0);
+    ASSERT_NEAR(m.transmission, 0.75, 0.0);
+    assert_int_equal(m.base_color_texture.image, ALP_NONE);
+    assert_int_equal(m.normal_texture.image, ALP_NONE);
+    ASSERT_NEAR(m.normal_scale, 1.0, 0.0);
+    assert_int_equal(m.emission_texture.image, DRAWN_IMAGE);
+    assert_int_equal(m.emission_texture.wrap_u, ALP_WRAP_CLAMP);
+    assert_int_equal(m.emission_texture.wrap_v, ALP_WRAP_MIRROR);
+    assert_int_equal(m.metallic_texture.image, DRAWN_SAME);
+    assert_int_equal(m.metallic_texture.wrap_u, ALP_WRAP_REPEAT);
+    assert_int_equal(m.occlusion_texture.uv_slot, 1);
+    assert_int_equal(m.transmission_texture.image, DRAWN_IMAGE);
+    const alp_image *image = alp_scene_get_image(scene, DRAWN_IMAGE);
+    assert_non_null(image);
+    assert_int_equal(alp_image_get_info(image).width, DRAWN_WIDTH);
+    assert_int_equal(((const uint8_t *)alp_image_pixels(image))[1], 90); // 83 + 7
+    assert_null(alp_scene_get_image(scene, DRAWN_BROKEN));               // nothing reads it
+    assert_null(alp_scene_get_image(scene, DRAWN_IMAGE_COUNT));
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(axes_are_those_of_the_node, 1)
+{
+    alp_scene *scene = drawn_asset(context, "{}");
+    alpi_surface *surface = &scene->surfaces[0];
+    const float turned[3][3] = {{0, 2, 0}, {-3, 0, 0}, {0, 0, 4}};
+    memcpy(surface->axes, turned, sizeof turned);
+    assert_memory_equal(alp_scene_get_surface(scene, 0).axes, turned, sizeof turned);
+    memset(surface->axes, 0, sizeof surface->axes); // of a skin: the world's
+    for (int k = 0; k < 9; k++) {
+        ASSERT_NEAR(alp_scene_get_surface(scene, 0).axes[k / 3][k % 3], k % 4 == 0, 0.0);
     }
     alp_scene_destroy(scene);
 }
