@@ -263,8 +263,36 @@ TEST_WITH_CONTEXT(the_larger_angle_decides_where_mirrored_halves_share_a_vertex,
     ASSERT_NEAR(tangents[1][3], 1.0, 0.0);
     ASSERT_NEAR(tangents[2][3], -1.0, 0.0);
     ASSERT_NEAR(tangents[0][3], -1.0, 0.0);
+    scene->triangle_usable[1] = false;
+    assert_int_equal(alp_scene_make_tangents(scene, tangents), ALP_OK);
+    ASSERT_NEAR(tangents[0][3], 1.0, 0.0);
+    scene->triangle_usable[1] = true;
     scene->positions[2][0] = 0.9f; // 3°
     assert_int_equal(alp_scene_make_tangents(scene, tangents), ALP_OK);
     ASSERT_NEAR(tangents[0][3], 1.0, 0.0);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(directions_are_weighted_by_angle, 1)
+{
+    alp_scene *scene = drawn_asset(context, NORMAL("'index':0"));
+    scene->positions[2][0] = -1.0f; // 135° at vertex 0, beside 45°
+    scene->positions[2][1] = 0.0f;
+    scene->uvs[0][2][0] = 0.0f; // there u = y, v = 1 - x
+    scene->uvs[0][2][1] = 2.0f;
+    float tangents[4][4];
+    assert_int_equal(alp_scene_make_tangents(scene, tangents), ALP_OK);
+    ASSERT_NEAR(tangents[0][0], 1.0 / sqrt(10.0), 1e-6); // 45° (1, 0) + 135° (0, 1)
+    ASSERT_NEAR(tangents[0][1], 3.0 / sqrt(10.0), 1e-6);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(normals_behind_the_triangle_keep_the_image_upright, 1)
+{
+    alp_scene *scene = drawn_asset(context, NORMAL("'index':0"));
+    for (int v = 0; v < 4; v++) {
+        scene->normals[v][2] = -1.0f;
+    }
+    check_tangents(scene, 1.0, 0.0, -1.0); // -cross(-z, x) = +y
     alp_scene_destroy(scene);
 }
