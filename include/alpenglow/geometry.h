@@ -104,8 +104,8 @@ ALP_API const alp_image *alp_scene_get_image(const alp_scene *scene, uint32_t in
 /// Loads the images of normal maps, which light does not need: alp_scene_load leaves them out, so
 /// that a bake spends neither time nor memory on them. One that cannot be read costs a warning
 /// ("image"); its material is drawn without. A second call loads nothing again. Normal maps are
-/// read from glTF. Not during another call with the scene. Pictures and bakes of the library do not
-/// change.
+/// those of glTF, and of OBJ where a library says `norm`. A scene by alp_scene_simplify has none.
+/// Not during another call with the scene. Pictures and bakes of the library do not change.
 /// @return ALP_OK; INVALID_ARGUMENT (NULL); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_scene_load_normal_maps(alp_scene *scene);
 

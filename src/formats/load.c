@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-// alp_scene_load: which reader a path or a file's first bytes ask for. Later: normal maps.
+// alp_scene_load: which reader a path or a file's first bytes ask for.
 #include "base/file.h"
 #include "formats/formats.h"
-
-#include <alpenglow/geometry.h>
 
 #include <string.h>
 
@@ -30,11 +28,6 @@ alp_result alp_scene_load(alp_context *context, const char *path, alp_scene **sc
         return alpi_obj_read_scene(context, path, scene);
     }
     return alpi_gltf_read_scene(context, path, scene); // .glb and .gltf are told apart by content
-}
-
-alp_result alp_scene_load_normal_maps(alp_scene *scene)
-{
-    return scene == NULL ? ALP_ERROR_INVALID_ARGUMENT : alpi_gltf_load_normal_maps(scene);
 }
 
 alp_result alp_scene_load_choice(alp_context *context, const char *path, const char *choice,

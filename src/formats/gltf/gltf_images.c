@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images of a glTF asset. Only those that a used material needs for diffuse light are decoded; one
 // that cannot be read costs a warning, because its material still has a factor. Normal maps are
-// decoded later, by gltf_normal_maps.c.
+// decoded later, by normal_maps.c.
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"

@@ -15,7 +15,7 @@ typedef struct source {
     const alpi_gltf_reader *reader;
     json_t *object;
     const char *owner;
-    bool quiet; // no warnings of textures, which alpi_gltf_load_normal_maps gives
+    bool quiet; // no warnings of textures: alp_scene_load_normal_maps gives them
 } source;
 
 static alpi_wrap read_wrap(json_t *sampler, const char *member)

@@ -11,9 +11,6 @@ alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scen
 alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
                                  alp_scene **scene);
 
-/// gltf_normal_maps.c: decodes the normal maps of a scene that has a document, once.
-alp_result alpi_gltf_load_normal_maps(alp_scene *scene);
-
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Normal maps of a glTF asset. Light does not need them, and files often have more of them than of
-// other images. So a host that draws loads them by a call of its own, which can fail for want of
-// memory and warns as reading the file does. A const scene that decoded at the first use could do
-// neither, and threads that read it would race.
-#include "formats/gltf/gltf_read.h"
-
+// alp_scene_load_normal_maps. Light does not need normal maps, and files often have more of them
+// than of other images. So a host that draws loads them by a call of its own, which can fail for
+// want of memory and warns as reading the file does. A const scene that decoded at the first use
+// could do neither, and threads that read it would race.
 #include "base/memory.h"
-#include "formats/gltf/gltf_scene.h"
+#include "formats/gltf/gltf_read.h"
+#include "formats/obj/obj_scene.h"
+
+#include <alpenglow/geometry.h>
 
 /// Marks the normal maps of materials that surfaces use. Warns of those that cannot be read.
 static void mark_normal_maps(const alp_scene *scene, bool *used, bool *needed)
@@ -23,15 +24,22 @@ static void mark_normal_maps(const alp_scene *scene, bool *used, bool *needed)
         }
         if (m->normal_texture.lost) {
             alpi_warn(scene->context, "image", m->name,
-                      "the normal map of material %u is no PNG, JPEG or WebP, or uses a TEXCOORD "
-                      "above %d: it is drawn without",
+                      "the normal map of material %u is left out: it has no PNG, JPEG or WebP "
+                      "image, a path outside the asset's folder, or a coordinate set above %d",
                       index, ALPI_UV_SET_LIMIT - 1);
         }
     }
 }
 
-static alp_result decode_normal_maps(const alpi_gltf_document *document, const alp_scene *scene,
-                                     alp_image **maps)
+/// By the file that the scene was read from.
+static alp_result read_image(const alp_scene *scene, uint32_t index, alp_image **image)
+{
+    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    return document != NULL ? alpi_gltf_read_image(document, index, image)
+                            : alpi_obj_read_picture(scene, index, image);
+}
+
+static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)
 {
     bool *used = ALPI_NEW(scene->context, bool, scene->material_count);
     bool *needed = ALPI_NEW(scene->context, bool, scene->image_count);
@@ -41,7 +49,7 @@ static alp_result decode_normal_maps(const alpi_gltf_document *document, const a
     }
     for (uint32_t i = 0; result == ALP_OK && i < scene->image_count; i++) {
         if (needed[i] && scene->images[i] == NULL) {
-            result = alpi_gltf_read_image(document, i, &maps[i]);
+            result = read_image(scene, i, &maps[i]);
         }
     }
     alpi_release(scene->context, used);
@@ -49,17 +57,19 @@ static alp_result decode_normal_maps(const alpi_gltf_document *document, const a
     return result;
 }
 
-alp_result alpi_gltf_load_normal_maps(alp_scene *scene)
+alp_result alp_scene_load_normal_maps(alp_scene *scene)
 {
-    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
-    if (document == NULL || scene->normal_maps != NULL) {
+    if (scene == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    if (scene->normal_maps != NULL) {
         return ALP_OK;
     }
     alp_image **maps = ALPI_NEW(scene->context, alp_image *, scene->image_count);
     if (maps == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    const alp_result result = decode_normal_maps(document, scene, maps);
+    const alp_result result = decode_normal_maps(scene, maps);
     if (result == ALP_OK) {
         scene->normal_maps = maps;
         return ALP_OK;
