@@ -296,3 +296,42 @@ TEST_WITH_CONTEXT(normals_behind_the_triangle_keep_the_image_upright, 1)
     check_tangents(scene, 1.0, 0.0, -1.0); // -cross(-z, x) = +y
     alp_scene_destroy(scene);
 }
+
+/// P(u, v) = (cos φ, −v, sin φ) with φ = −2π u, seen from outside with its image upright:
+/// dP/du is along (sin φ, 0, −cos φ).
+TEST_WITH_CONTEXT(tangents_of_a_cylinder_are_its_derivative, 1)
+{
+    enum { SIDES = 12, VERTICES = 2 * (SIDES + 1) };
+    float positions[VERTICES][3], normals[VERTICES][3], uvs[VERTICES][2], tangents[VERTICES][4];
+    uint32_t indices[2 * SIDES][3];
+    for (uint32_t i = 0; i < VERTICES; i++) { // the seam twice
+        const double u = (i / 2) / (double)SIDES, phi = -2.0 * acos(-1.0) * u;
+        const float v = (float)(i % 2);
+        memcpy(positions[i], (float[]){(float)cos(phi), -v, (float)sin(phi)}, 3 * sizeof(float));
+        memcpy(normals[i], (float[]){(float)cos(phi), 0.0f, (float)sin(phi)}, 3 * sizeof(float));
+        memcpy(uvs[i], (float[]){(float)u, v}, 2 * sizeof(float));
+    }
+    for (uint32_t i = 0; i < SIDES; i++) { // above left, below left, below right, above right
+        const uint32_t a = 2 * i, b = a + 1, c = a + 3, d = a + 2;
+        memcpy(indices[2 * i], (uint32_t[]){a, b, c}, sizeof *indices);
+        memcpy(indices[2 * i + 1], (uint32_t[]){a, c, d}, sizeof *indices);
+    }
+    const alp_mesh mesh = {.vertex_count = VERTICES,
+                           .triangle_count = 2 * SIDES,
+                           .positions = positions[0],
+                           .normals = normals[0],
+                           .uvs = uvs[0],
+                           .indices = indices[0]};
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
+    scene->materials[0].normal_texture.image = 0;
+    scene->materials[0].normal_texture.uv_set = 1;
+    assert_int_equal(alp_scene_make_tangents(scene, tangents), ALP_OK);
+    for (uint32_t i = 0; i < VERTICES; i++) {
+        ASSERT_NEAR(tangents[i][0], normals[i][2], 1e-6);
+        ASSERT_NEAR(tangents[i][1], 0.0, 1e-6);
+        ASSERT_NEAR(tangents[i][2], -normals[i][0], 1e-6);
+        ASSERT_NEAR(tangents[i][3], 1.0, 0.0);
+    }
+    alp_scene_destroy(scene);
+}
