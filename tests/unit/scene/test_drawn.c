@@ -1,83 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a host draws: the arrays and values that it gets are enough to compute the library's albedo.
 #include "drawn_asset.h"
+#include "host_shader.h"
 
 #include "scene/scene.h"
 
 #include <math.h>
 #include <stdio.h>
-
-// --- a host's own shader -------------------------------------------------------------------------
-
-static int64_t wrap(int64_t i, int64_t size, alp_wrap mode)
-{
-    if (mode == ALP_WRAP_CLAMP) {
-        return i < 0 ? 0 : i >= size ? size - 1 : i;
-    }
-    const int64_t period = mode == ALP_WRAP_MIRROR ? 2 * size : size;
-    i = (i % period + period) % period;
-    return i < size ? i : period - 1 - i;
-}
-
-static double decode(double c)
-{
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-/// Bilinear, of an 8-bit RGBA image, by public calls alone.
-static void sample(const alp_scene *scene, const alp_texture_info *t, const double uv[2], bool srgb,
-                   double rgba[4])
-{
-    const alp_image *image = alp_scene_get_image(scene, t->image);
-    assert_non_null(image);
-    const alp_image_info info = alp_image_get_info(image);
-    const uint8_t *bytes = alp_image_pixels(image);
-    double place[2];
-    for (int k = 0; k < 2; k++) {
-        const float *row = t->transform[k];
-        place[k] = (double)row[0] * uv[0] + (double)row[1] * uv[1] + (double)row[2];
-    }
-    const double x = place[0] * info.width - 0.5, y = place[1] * info.height - 0.5;
-    const int64_t x0 = (int64_t)floor(x), y0 = (int64_t)floor(y);
-    for (int c = 0; c < 4; c++) {
-        rgba[c] = 0.0;
-        for (int corner = 0; corner < 4; corner++) {
-            const int right = corner & 1, down = corner >> 1;
-            const int64_t px = wrap(x0 + right, info.width, t->wrap_u);
-            const int64_t py = wrap(y0 + down, info.height, t->wrap_v);
-            const double wx = x - floor(x), wy = y - floor(y);
-            const double byte = bytes[4 * (py * info.width + px) + c] / 255.0;
-            rgba[c] += (right ? wx : 1.0 - wx) * (down ? wy : 1.0 - wy) *
-                       (srgb && c < 3 ? decode(byte) : byte);
-        }
-    }
-}
-
-/// The formulas of geometry.h: albedo in three channels, and alpha.
-static void shade(const alp_scene *scene, uint32_t triangle, double b1, double b2, double rgba[4])
-{
-    const alp_geometry g = alp_scene_get_geometry(scene);
-    const alp_surface_info surface = alp_scene_get_surface(scene, g.triangle_surfaces[triangle]);
-    const alp_material_info m = alp_scene_get_material(scene, surface.material_index);
-    const double shares[3] = {1.0 - b1 - b2, b1, b2};
-    double uv[2] = {0.0, 0.0}, vertex[4] = {0.0, 0.0, 0.0, 0.0}, texel[4] = {1.0, 1.0, 1.0, 1.0};
-    for (int k = 0; k < 3; k++) {
-        const uint32_t v = g.triangles[triangle][k];
-        for (int i = 0; i < 2 && g.uvs[m.base_color_texture.uv_slot] != NULL; i++) {
-            uv[i] += shares[k] * (double)g.uvs[m.base_color_texture.uv_slot][v][i];
-        }
-        for (int i = 0; i < 4; i++) {
-            vertex[i] += shares[k] * (g.colors != NULL ? (double)g.colors[v][i] : 1.0);
-        }
-    }
-    if (m.base_color_texture.image != ALP_NONE) {
-        sample(scene, &m.base_color_texture, uv, true, texel);
-    }
-    for (int i = 0; i < 4; i++) {
-        rgba[i] = (double)m.base_color[i] * vertex[i] * texel[i];
-        rgba[i] = i < 3 ? fmin(fmax(rgba[i], 0.0), 0.95) : rgba[i];
-    }
-}
 
 static void check_albedo(const alp_scene *scene)
 {
@@ -86,7 +15,7 @@ static void check_albedo(const alp_scene *scene)
         for (int i = 0; i < 25; i++) {
             const double b1 = 0.05 + 0.18 * (i % 5), b2 = (0.95 - b1) * (i / 5) / 4.0;
             double rgba[4];
-            shade(scene, t, b1, b2, rgba);
+            host_shade(scene, t, b1, b2, rgba);
             const vec3 albedo = alpi_surface_albedo(scene, t, (float)b1, (float)b2);
             ASSERT_NEAR(rgba[0], albedo.x, 2e-5);
             ASSERT_NEAR(rgba[1], albedo.y, 2e-5);
@@ -233,6 +162,27 @@ TEST_WITH_CONTEXT(a_textured_material_is_shaded_as_the_library_does, 1)
         check_albedo(scene);
         alp_scene_destroy(scene);
     }
+}
+
+TEST_WITH_CONTEXT(a_blended_texture_is_weighed_by_the_normal, 1)
+{
+    static const float axes[3][3] = {{0, 2, 0.5f}, {-3, 0, 0}, {0, -0.5f, 0.75f}};
+    alp_scene *scene = drawn_asset(context, "{'pbrMetallicRoughness':{'metallicFactor':0,"
+                                            "'baseColorTexture':{'index':2}}}");
+    alpi_texture *texture = &scene->materials[0].base_color_texture;
+    for (int v = 0; v < 4; v++) {
+        const vec3 n = {0.3f * (float)v, 0.5f, 1.0f - 0.4f * (float)v};
+        vec3_store(scene->normals[v], vec3_normalize_or(n, n));
+    }
+    texture->blended = true;
+    texture->slots[1] = 1;
+    memcpy(scene->surfaces[0].axes, axes, sizeof axes);
+    check_albedo(scene);
+    memset(scene->surfaces[0].axes, 0, sizeof axes); // the world's
+    check_albedo(scene);
+    texture->slots[2] = 4; // which the square lacks
+    check_albedo(scene);
+    alp_scene_destroy(scene);
 }
 
 TEST_WITH_CONTEXT(each_texture_comes_with_its_factor, 1)
