@@ -77,7 +77,7 @@ SUB_ROOMS = {
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
     "sh": "sh", "shared_constants": "sh", "display": "film", "film": "film", "light": "scene",
-    "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
+    "geometry": "scene", "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
     "field": "fields", "probes": "fields", "ambience": "fields", "lpv": "fields", "render": "render",
     "doctor": "doctor", "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",
 }

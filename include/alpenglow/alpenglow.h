@@ -12,6 +12,7 @@
 #include <alpenglow/doctor.h>
 #include <alpenglow/field.h>
 #include <alpenglow/film.h>
+#include <alpenglow/geometry.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>

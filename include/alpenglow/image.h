@@ -35,6 +35,8 @@ ALP_API alp_image_info alp_image_get_info(const alp_image *image);
 /// type.
 ALP_API uint8_t *alp_image_bytes(alp_image *image);
 ALP_API float *alp_image_floats(alp_image *image);
+/// The same pixels of either component type, to read. NULL for NULL.
+ALP_API const void *alp_image_pixels(const alp_image *image);
 
 /// Reads an image from a .png, .jpg, .exr or .hdr file. The first bytes decide the format, not the
 /// name.

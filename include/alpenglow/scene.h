@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A scene: triangles in world space with materials, lights and cameras. Immutable once made, but
-// for alp_scene_set_metals.
+// for alp_scene_set_metals and alp_scene_load_normal_maps.
 #ifndef ALPENGLOW_SCENE_H
 #define ALPENGLOW_SCENE_H
 
@@ -101,6 +101,9 @@ typedef struct alp_scene_info {
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 
+/// No item of an array: an index that is none.
+#define ALP_NONE UINT32_MAX
+
 /// One surface: a primitive placed in the world by a node.
 typedef struct alp_surface_info {
     const char *name;     ///< name of its node, else of its mesh; owned by the scene
@@ -108,9 +111,15 @@ typedef struct alp_surface_info {
     uint32_t first_triangle, triangle_count;
     uint32_t uv_sets; ///< number of its texture coordinate sets
     bool double_sided, mirrored, normals_generated;
-    float emission[3]; ///< radiance of its material, W·sr⁻¹·m⁻², before its texture
+    float emission[3];       ///< radiance of its material, W·sr⁻¹·m⁻², before its texture
+    uint32_t material_index; ///< of its material (alpenglow/geometry.h); ALP_NONE without one
+    uint32_t uv_slots;       ///< bit n: it has the coordinates of slot n of alp_geometry.uvs
+    /// The x, y and z axis of its object in the world, of any length: a normal n of the world has
+    /// the components n · axes[k] in the object, before it is normalised. The axes of the world
+    /// where joints place the object, or where its axes are nearly in one plane.
+    float axes[3][3];
 } alp_surface_info;
-/// @param index < surfaces, else a zeroed struct with empty names
+/// @param index < surfaces, else a zeroed struct with empty names and material_index ALP_NONE
 ALP_API alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index);
 
 typedef enum alp_light_kind {

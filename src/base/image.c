@@ -66,6 +66,11 @@ float *alp_image_floats(alp_image *image)
     return image && image->info.component == ALP_COMPONENT_FLOAT ? image->pixels : NULL;
 }
 
+const void *alp_image_pixels(const alp_image *image)
+{
+    return image != NULL ? image->pixels : NULL;
+}
+
 void alpi_image_pixel(const alp_image *image, uint32_t x, uint32_t y, float rgba[4])
 {
     uint32_t channels = image->info.channels;

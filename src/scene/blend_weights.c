@@ -25,6 +25,14 @@ void alpi_surface_axes(const alpi_surface *surface, bool world, vec3 axes[3])
     }
 }
 
+void alpi_surface_normal_axes(const alpi_surface *surface, float axes[3][3])
+{
+    static const float of_world[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    vec3 unit[3];
+    const bool own = own_axes(surface, false, unit);
+    memcpy(axes, own ? surface->axes : of_world, sizeof of_world);
+}
+
 /// A normal of the world in the frame of the object. Its axes are taken with their lengths here, as
 /// the file's own normals have them.
 static vec3 object_normal(const alpi_surface *surface, bool world, vec3 n)

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "scene/area_points.h"
+#include "scene/blend_weights.h"
 #include "scene/sides.h"
 #include "scene/viewpoints.h"
 
@@ -49,6 +50,9 @@ void alp_scene_destroy(alp_scene *scene)
     for (uint32_t i = 0; scene->images != NULL && i < scene->image_count; i++) {
         alp_image_destroy(scene->images[i]);
     }
+    for (uint32_t i = 0; scene->normal_maps != NULL && i < scene->image_count; i++) {
+        alp_image_destroy(scene->normal_maps[i]);
+    }
     for (uint32_t i = 0; scene->lights != NULL && i < scene->light_count; i++) {
         alpi_release(context, scene->lights[i].name);
     }
@@ -56,11 +60,11 @@ void alp_scene_destroy(alp_scene *scene)
         alpi_release(context, scene->uvs[i]);
     }
     alpi_sides_destroy(context, scene->sides);
-    void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,
-                            scene->vertex_source,   scene->triangles, scene->triangle_surface,
-                            scene->triangle_usable, scene->surfaces,  scene->materials,
-                            scene->images,          scene->lights,    scene->cameras,
-                            scene->attachments,     scene->name};
+    void *const arrays[] = {scene->positions,       scene->normals,     scene->colors,
+                            scene->vertex_source,   scene->triangles,   scene->triangle_surface,
+                            scene->triangle_usable, scene->surfaces,    scene->materials,
+                            scene->images,          scene->normal_maps, scene->lights,
+                            scene->cameras,         scene->attachments, scene->name};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(context, arrays[i]);
     }
@@ -197,6 +201,9 @@ static bool clamp_value(float *value, float low, float high)
     return changed;
 }
 
+/// Far beyond what any map needs, so that a shader's squares stay finite.
+static const float NORMAL_SCALE_LIMIT = 1000.0f;
+
 static void clamp_materials(alp_scene *scene)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -211,6 +218,8 @@ static void clamp_materials(alp_scene *scene)
             changed |= clamp_value(&m->emission[k], 0.0f, 1e20f);
         }
         changed |= clamp_value(&m->alpha_cutoff, 0.0f, 1e20f);
+        m->normal_scale = isnan(m->normal_scale) ? 1.0f : m->normal_scale;
+        changed |= clamp_value(&m->normal_scale, -NORMAL_SCALE_LIMIT, NORMAL_SCALE_LIMIT);
         if (changed) {
             alpi_warn(scene->context, "material-range", m->name,
                       "material %u has values out of range: clamped, so that energy does not grow",
@@ -325,13 +334,13 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
 
 alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
 {
-    alp_surface_info info = {.name = "", .material = ""};
+    alp_surface_info info = {.name = "", .material = "", .material_index = ALP_NONE};
     if (scene == NULL || index >= scene->surface_count) {
         return info;
     }
     const alpi_surface *s = &scene->surfaces[index];
     const alpi_material *m = s->material == ALPI_NONE ? NULL : &scene->materials[s->material];
-    return (alp_surface_info){.name = s->name,
+    info = (alp_surface_info){.name = s->name,
                               .material = m ? m->name : "",
                               .first_triangle = s->first_triangle,
                               .triangle_count = s->triangle_count,
@@ -340,7 +349,11 @@ alp_surface_info alp_scene_get_surface(const alp_scene *scene, uint32_t index)
                               .mirrored = s->mirrored,
                               .normals_generated = s->normals_generated,
                               .emission = {m ? m->emission[0] : 0.0f, m ? m->emission[1] : 0.0f,
-                                           m ? m->emission[2] : 0.0f}};
+                                           m ? m->emission[2] : 0.0f},
+                              .material_index = s->material,
+                              .uv_slots = s->uv_slots | ((1u << s->uv_sets) - 1u)};
+    alpi_surface_normal_axes(s, info.axes);
+    return info;
 }
 
 alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
