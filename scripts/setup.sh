@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what the project needs on Debian 12. Looks first, and does nothing when all is there.
 #
-#   scripts/setup.sh build    what the library and the command need
+#   scripts/setup.sh build    what the library, the command and the viewer need
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
 #   scripts/setup.sh browser  that, and a browser (some 500 MB), which opens what is written for it
 #
@@ -31,14 +31,15 @@ build_packages="
     libmeshoptimizer-dev -
     libdraco-dev        -
     libwebp-dev         -
-    zlib1g-dev          -"
+    zlib1g-dev          -
+    libepoxy-dev        -
+    libegl-dev          -
+    libegl-mesa0        -
+    libgl1-mesa-dri     -"
 check_packages="
     python3             -
     libcmocka-dev       -
-    libegl-dev          -
     libgles-dev         -
-    libegl-mesa0        -
-    libgl1-mesa-dri     -
     clang               clang
     libclang-rt-14-dev  -
     clang-format        clang-format

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
 #include "bake_options.h"
+#include "commands.h"
 #include "fields.h"
 #include "findings.h"
 #include "interrupt.h"

@@ -1,41 +1,23 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bench: runs alpenglow-bench, a separate program, which uses internals of the library
 // and calls the ray tracer directly.
+#include "commands.h"
 #include "messages.h"
-#include "options/options.h"
+#include "programs.h"
 
-#include <errno.h>
-#include <string.h>
-#include <unistd.h>
+#include <stdio.h>
 
-enum { PATH_SIZE = 4096, WORD_LIMIT = 8 };
-
-/// Writes the path of the bench program in `folder`, relative to the folder of this program.
-static bool find_beside(const char *folder, char path[PATH_SIZE])
-{
-    char self[PATH_SIZE];
-    const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length <= 0) {
-        return false;
-    }
-    self[length] = '\0';
-    char *slash = strrchr(self, '/');
-    if (slash == NULL) {
-        return false;
-    }
-    *slash = '\0';
-    const int written = snprintf(path, PATH_SIZE, "%s/%s/alpenglow-bench", self, folder);
-    return written > 0 && written < PATH_SIZE && access(path, X_OK) == 0;
-}
+enum { WORD_LIMIT = 8 };
 
 int command_bench(const command_line *a)
 {
-    static char path[PATH_SIZE], name[] = "alpenglow-bench", quick[] = "--quick";
+    static char path[PROGRAM_PATH_SIZE], name[] = "alpenglow-bench", quick[] = "--quick";
     static char markdown[] = "--markdown", scene[] = "--scene";
-    static char room[64], scene_name[PATH_SIZE];
+    static char room[64], scene_name[PROGRAM_PATH_SIZE];
     char *words[WORD_LIMIT] = {name};
     int count = 1;
-    if (!find_beside(".", path) && !find_beside(ALP_BENCH_FOLDER, path)) {
+    if (!program_find_beside(".", name, path) &&
+        !program_find_beside(ALP_BENCH_FOLDER, name, path)) {
         return failure("alpenglow-bench is neither beside this program nor in its libexec folder; "
                        "build or install it (cmake --build, cmake --install)");
     }
@@ -54,8 +36,5 @@ int command_bench(const command_line *a)
         words[count++] = scene;
         words[count++] = scene_name;
     }
-    fflush(stdout);
-    execv(path, words);
-    fprintf(stderr, "alpenglow: %s: %s\n", path, strerror(errno));
-    return EXIT_FAILED;
+    return program_run(path, words);
 }

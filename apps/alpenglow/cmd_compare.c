@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow compare: differences of two images, or of the maps of two baked assets.
+#include "commands.h"
 #include "compare_assets.h"
 #include "messages.h"
-#include "options/options.h"
 #include "output.h"
 
 #include <alpenglow/alpenglow.h>

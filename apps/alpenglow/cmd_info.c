@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow info: contents and faults of a scene.
+#include "commands.h"
 #include "fields.h"
 #include "findings.h"
 #include "output.h"

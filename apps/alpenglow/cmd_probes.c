@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow probes: light probes of a scene.
+#include "commands.h"
 #include "fields.h"
 #include "interrupt.h"
 #include "lighting.h"

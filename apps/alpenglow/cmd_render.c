@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
 #include "cameras.h"
+#include "commands.h"
 #include "fields.h"
 #include "film.h"
 #include "interrupt.h"
 #include "lighting.h"
+#include "lightmaps.h"
 #include "output.h"
 #include "session.h"
 #include "views.h"
@@ -211,36 +213,6 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
-// Choices of --atlas, in its order.
-static const struct {
-    alp_atlas_mode mode;
-    alp_blend blend;
-} layouts[] = {{ALP_ATLAS_AUTO, ALP_BLEND_NORMAL},
-               {ALP_ATLAS_KEEP, ALP_BLEND_NORMAL},
-               {ALP_ATLAS_CHARTS, ALP_BLEND_NORMAL},
-               {ALP_ATLAS_BLEND, ALP_BLEND_NORMAL},
-               {ALP_ATLAS_BLEND, ALP_BLEND_AVERAGE}};
-
-/// Bakes the map of --with lightmap: irradiance alone, as bake --samples.
-static alp_result bake_light(session *s, const command_line *a, const alp_render_options *o,
-                             alp_lightmap **lightmap)
-{
-    alp_bake_options bake = alp_bake_options_default();
-    bake.maps = ALP_MAP_LIGHT;
-    bake.atlas = o->atlas;
-    bake.atlas.mode = layouts[a->values[OPTION_ATLAS].choice].mode;
-    bake.stitch = a->values[OPTION_STITCH].choice == 1;
-    bake.occlusion = o->occlusion;
-    bake.light.lighting = o->lighting;
-    bake.light.bounces = o->bounces;
-    bake.light.samples = (uint32_t)a->values[OPTION_TEXEL_SAMPLES].whole;
-    bake.progress = session_progress;
-    bake.progress_user = s;
-    const alp_result result = alp_bake(s->scene, &bake, lightmap, NULL);
-    alp_lightmap_set_blend(*lightmap, layouts[a->values[OPTION_ATLAS].choice].blend);
-    return result;
-}
-
 /// Flies, and takes light and, without --camera, the view of the last moment.
 static int make_ambience(session *s, const command_line *a, alp_render_options *o,
                          field_source *source)
@@ -300,7 +272,7 @@ static alp_result make_picture(session *s, const command_line *a, alp_render_opt
     alp_result result = ALP_OK;
     *image = NULL;
     if (o->method == ALP_RENDER_LIGHTMAP) {
-        result = bake_light(s, a, o, &lightmap);
+        result = lightmap_bake(s, a, o, &lightmap);
         o->lightmap = lightmap;
     }
     if (result == ALP_OK) {

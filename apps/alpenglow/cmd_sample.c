@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow sample: irradiance of a model of light at points of space.
+#include "commands.h"
 #include "fields.h"
 #include "interrupt.h"
 #include "lighting.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow sh: nine spherical harmonics of an environment, and its irradiance as an image.
+#include "commands.h"
 #include "messages.h"
-#include "options/options.h"
 #include "output.h"
 
 #include <alpenglow/alpenglow.h>

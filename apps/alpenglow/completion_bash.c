@@ -163,7 +163,7 @@ static void print_places(void)
          "_alpenglow_place() {\n"
          "    words= endings= folders= list=\n"
          "    case $1 in");
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
         print_places_of(i);
     }
     puts("    *) return 1 ;;\n    esac\n}\n");
@@ -179,7 +179,7 @@ static void print_options(void)
     puts("# The options of a command, and how many operands it takes.\n"
          "_alpenglow_options() {\n"
          "    case $1 in");
-    for (command_id command = 0; command < COMMAND_BUILT_COUNT; command++) {
+    for (command_id command = 0; command < COMMAND_COUNT; command++) {
         const char *name = command_table()[command].name;
         printf("    %s) operands=%d options='", name, command_operand_limit(command));
         const char *separator = "";
@@ -201,7 +201,7 @@ void completion_print_bash(void)
     const option *program = program_option_table(&count);
     fputs(head, stdout);
     fputs("_alpenglow_commands='help", stdout);
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         printf(" %s", command_table()[i].name);
     }
     fputs("'\n_alpenglow_program='", stdout);

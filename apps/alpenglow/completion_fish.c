@@ -117,7 +117,7 @@ void completion_print_fish(void)
     size_t count = 0;
     const option *program = program_option_table(&count);
     fputs(head, stdout);
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         printf("complete -c alpenglow -n __alpenglow_first -a %s -d ", command_table()[i].name);
         put_quoted(command_table()[i].summary);
         printf("\ncomplete -c alpenglow -n '__alpenglow_behind help next' -a %s\n",
@@ -127,7 +127,7 @@ void completion_print_fish(void)
     for (size_t i = 0; i < count; i++) {
         print_option("__alpenglow_first", &program[i]);
     }
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
         print_command(i);
     }
 }

@@ -141,7 +141,7 @@ void completion_print_zsh(void)
     const option *program = program_option_table(&count);
     fputs(head, stdout);
     puts("_alpenglow() {\n    local -a commands=(");
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         printf("        '%s:", command_table()[i].name);
         put_quoted(command_table()[i].summary, "\\");
         puts("'");
@@ -153,7 +153,7 @@ void completion_print_zsh(void)
     }
     puts(")");
     fputs(before_commands, stdout);
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
         print_command(i);
     }
     fputs(tail, stdout);

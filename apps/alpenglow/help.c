@@ -128,9 +128,6 @@ static void print_footer(command_id command)
 int help_print_command(command_id command)
 {
     const command_entry *c = &command_table()[command];
-    if (c->run == NULL) {
-        return usage_error(COMMAND_COUNT, "%s: not built yet; %s", c->name, c->help);
-    }
     printf("Usage: alpenglow %s %s\n\n", c->name, c->synopsis);
     print_paragraph(c->help, 0);
     for (option_group group = 0; group < GROUP_LATER; group++) {
@@ -145,14 +142,10 @@ int help_print(void)
 {
     printf("Usage: alpenglow COMMAND ...\n\n"
            "Bakes occlusion and indirect light into scenes for real-time 3D.\n\nCommands:\n");
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         printf("  %-8s  %s\n", command_table()[i].name, command_table()[i].summary);
     }
-    printf("\nNot built yet (refused by name):\n ");
-    for (int i = COMMAND_BUILT_COUNT; i < COMMAND_COUNT; i++) {
-        printf(" %s", command_table()[i].name);
-    }
-    printf("\n\n  alpenglow COMMAND --help   options of a command\n"
+    printf("\n  alpenglow COMMAND --help   options of a command\n"
            "  alpenglow --version        version\n"
            "  alpenglow --completion bash|zsh|fish\n"
            "                             completion script for that shell\n"

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: MIT
 // The main program: finds the command and runs it.
-#include "options/options.h"
+#include "commands.h"
+#include "streams.h"
 
 #include <alpenglow/alpenglow.h>
 
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-static bool is_help(const char *word)
-{
-    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
-}
-
-static bool asks_for_help(int count, char **words)
-{
-    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
-        if (is_help(words[i])) {
-            return true;
-        }
-    }
-    return false;
-}
+static int (*const runs[COMMAND_COUNT])(const command_line *arguments) = {
+    [COMMAND_BAKE] = command_bake,
+    [COMMAND_RENDER] = command_render,
+    [COMMAND_INFO] = command_info,
+    [COMMAND_COMPARE] = command_compare,
+    [COMMAND_SAMPLE] = command_sample,
+    [COMMAND_PROBES] = command_probes,
+    [COMMAND_AMBIENCE] = command_ambience,
+    [COMMAND_LPV] = command_lpv,
+    [COMMAND_SH] = command_sh,
+    [COMMAND_BENCH] = command_bench,
+    [COMMAND_VIEW] = command_view,
+};
 
 /// The command of this name, or COMMAND_COUNT after a message.
 static command_id find_command(const char *name)
@@ -53,13 +50,12 @@ static int run_command(int count, char **words)
     if (id == COMMAND_COUNT) {
         return EXIT_USAGE;
     }
-    const command_entry *c = &command_table()[id];
-    if (c->run == NULL || asks_for_help(count - 1, words + 1)) {
+    if (arguments_ask_for_help(count - 1, words + 1)) {
         return help_print_command(id);
     }
     command_line parsed;
     int code = arguments_parse(id, count - 1, words + 1, &parsed);
-    return code == EXIT_DONE ? c->run(&parsed) : code;
+    return code == EXIT_DONE ? runs[id](&parsed) : code;
 }
 
 /// Prints the manual page of a command, or of alpenglow itself. The build installs these pages.
@@ -72,10 +68,10 @@ static int print_manual(int count, char **words)
     return count > 0 ? manual_print_command(id) : manual_print();
 }
 
-/// Prints the commands that are built, a line each, for the build.
+/// Prints the commands, a line each, for the build.
 static int print_commands(void)
 {
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         puts(command_table()[i].name);
     }
     return EXIT_DONE;
@@ -105,7 +101,7 @@ static int dispatch(int count, char **words)
     if (count < 1) {
         return usage_error(COMMAND_COUNT, "no command; give bake, render, info, compare or bench");
     }
-    if (is_help(words[0])) {
+    if (arguments_ask_for_help(1, words)) {
         return help_print();
     }
     if (strcmp(words[0], "help") == 0) {
@@ -117,26 +113,8 @@ static int dispatch(int count, char **words)
     return dispatch_option(count, words);
 }
 
-/// Opens standard streams that are closed. Else the first file that is opened would get their
-/// number, and messages would be written into it. Using the stream fails, and is reported as usual.
-static void reserve_streams(void)
-{
-    for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++) {
-        if (fcntl(i, F_GETFD) < 0) {
-            (void)!open("/dev/null", i == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-        }
-    }
-}
-
 int main(int count, char **words)
 {
-    reserve_streams();
-    signal(SIGXFSZ, SIG_IGN); // a file that gets too large is a failed write, not the end
-    int code = dispatch(count > 0 ? count - 1 : 0, words + 1);
-    // A full disk or a closed pipe is detected only now.
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "alpenglow: cannot write to standard output\n");
-        code = code == EXIT_DONE ? EXIT_FAILED : code;
-    }
-    return code;
+    streams_open();
+    return streams_close(dispatch(count > 0 ? count - 1 : 0, words + 1));
 }

@@ -288,7 +288,7 @@ static void put_see_also(command_id own)
         fputs("\\fBalpenglow\\fR(1)", stdout);
         separator = ",\n";
     }
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
         if (i != own) {
             printf("%s\\fBalpenglow\\-%s\\fR(1)", separator, command_table()[i].name);
             separator = ",\n";
@@ -303,9 +303,6 @@ int manual_print_command(command_id command)
 {
     const command_entry *c = &command_table()[command];
     const manual_text *text = manual_text_of(command);
-    if (c->run == NULL) {
-        return usage_error(COMMAND_COUNT, "%s: not built yet; %s", c->name, c->help);
-    }
     put_title(c->name);
     put_prose(c->summary);
     put_section("SYNOPSIS");
@@ -333,7 +330,7 @@ int manual_print_command(command_id command)
 static void put_commands(void)
 {
     put_section("COMMANDS");
-    for (int i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; i++) {
         const command_entry *c = &command_table()[i];
         fputs(".TP\n", stdout);
         put_font('B', c->name, strlen(c->name));
@@ -341,11 +338,6 @@ static void put_commands(void)
         put_usage(c->synopsis);
         putchar('\n');
         put_prose(c->summary);
-    }
-    fputs(".PP\nNot built yet, and refused by name:\n", stdout);
-    for (int i = COMMAND_BUILT_COUNT; i < COMMAND_COUNT; i++) {
-        put_font('B', command_table()[i].name, strlen(command_table()[i].name));
-        fputs(i + 1 < COMMAND_COUNT ? ",\n" : ".\n", stdout);
     }
 }
 

@@ -74,6 +74,24 @@ ALP_API ALP_NODISCARD alp_result alp_film_develop(const alp_image *linear,
                                                   const alp_film_options *options,
                                                   alp_image **display, double *exposure);
 
+/// The numbers that develop a picture, for development elsewhere, such as in a shader: with the
+/// linear colour c of a pixel, its display values before encoding are
+///
+///     min(curve(gain · balance · c), 1)
+typedef struct alp_film_numbers {
+    double exposure;      ///< exposure value
+    double gain;          ///< 2^exposure
+    double white;         ///< w of the tone curve
+    double balance[3][3]; ///< matrix of white balance, rows; the identity without one
+} alp_film_numbers;
+
+/// Resolves what options leave to a picture: exposure, white point and white balance.
+/// @param options NULL = defaults   @param numbers out
+/// @return as alp_film_develop
+ALP_API ALP_NODISCARD alp_result alp_film_resolve(const alp_image *linear,
+                                                  const alp_film_options *options,
+                                                  alp_film_numbers *numbers);
+
 /// Measures the mean of log2 of luminance (Rec. 709) after white balance. A pixel counts if it is
 /// finite and its alpha and luminance are above 0. The darkest share `meter_low` of these and the
 /// brightest 1 − `meter_high` are left out, in steps of 1/128 of a doubling. Twice the light adds

@@ -82,8 +82,9 @@ typedef struct alp_render_options {
     size_t struct_size;
     alp_render_method method;
     uint32_t width, height; ///< pixels, [1, 16384]; default 960 × 540
-    uint32_t samples;       ///< camera rays per pixel, [1, 65536]; default 16. REFERENCE and
-                            ///< RADIOSITY: paths, rounded up to a multiple of 16
+    uint32_t samples;       ///< camera rays per pixel, [1, 65536]; default 16. A single one goes
+                            ///< through the middle of the pixel. REFERENCE and RADIOSITY: paths,
+                            ///< rounded up to a multiple of 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     /// Default 0. Past the last camera, an automatic one: alp_scene_get_camera's, unless one of 17
     /// other places, outside and inside the bounding box, sees far more front-facing surface. It

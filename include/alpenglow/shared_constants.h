@@ -39,4 +39,24 @@
 // Two bands block less than a covered cell does: .75 head-on. Opacity is multiplied by this.
 #define ALP_LPV_OPACITY 1.6
 
+// Diffuse albedo: its limit, so that light in closed rooms dies out, and that of a surface without
+// a material.
+#define ALP_ALBEDO_LIMIT 0.95
+#define ALP_ALBEDO_WITHOUT_MATERIAL 0.5
+
+// Film (alpenglow/film.h). Light above the brightest is cut off before a tone curve. REINHARD and
+// FILMIC have these white points where none is given. The background is a byte, encoded as sRGB.
+#define ALP_TONE_BRIGHTEST 1e30
+#define ALP_REINHARD_WHITE 4.0
+#define ALP_FILMIC_WHITE 5.6
+#define ALP_FILM_BACKGROUND 96.0
+// FILMIC: with x = gain L, x ((F - E) A x + B (C F - E)) / (F (x (A x + B) + D F)).
+#define ALP_FILMIC_GAIN 2.0
+#define ALP_FILMIC_A 0.15
+#define ALP_FILMIC_B 0.50
+#define ALP_FILMIC_C 0.10
+#define ALP_FILMIC_D 0.20
+#define ALP_FILMIC_E 0.02
+#define ALP_FILMIC_F 0.30
+
 #endif

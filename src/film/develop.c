@@ -5,10 +5,12 @@
 #include "film/curves.h"
 #include "film/meter.h"
 
+#include <alpenglow/shared_constants.h>
+
 #include <math.h>
 
 /// Neither black nor white, so that both stand out from it.
-static const uint8_t BACKGROUND = 96;
+static const uint8_t BACKGROUND = (uint8_t)ALP_FILM_BACKGROUND;
 
 /// What infinite light counts as: more than any screen shows, at any exposure, and still a number
 /// after a matrix.
@@ -105,6 +107,24 @@ static alp_result prepare(development *d, const alp_image *linear)
     }
     d->gain = exp2(o->exposure);
     d->white = o->white_point > 0.0f ? (double)o->white_point : alpi_film_default_white(o->tone);
+    return ALP_OK;
+}
+
+alp_result alp_film_resolve(const alp_image *linear, const alp_film_options *options,
+                            alp_film_numbers *numbers)
+{
+    ALP_TRY(alpi_film_check(linear, options));
+    if (numbers == NULL) {
+        return alpi_fail(linear->context, ALP_ERROR_INVALID_ARGUMENT, "film: `numbers` is NULL");
+    }
+    development d = {.options = options != NULL ? *options : alp_film_options_default()};
+    ALP_TRY(prepare(&d, linear));
+    *numbers = (alp_film_numbers){.exposure = d.options.exposure, .gain = d.gain, .white = d.white};
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+            numbers->balance[i][k] = d.balanced ? d.balance.m[i][k] : (i == k ? 1.0 : 0.0);
+        }
+    }
     return ALP_OK;
 }
 

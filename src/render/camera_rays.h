@@ -10,6 +10,7 @@ typedef struct alpi_view {
     vec3 origin, forward; // metres; unit
     vec3 right, up;       // half the picture's height at distance 1; right already times the aspect
     uint32_t width, height;
+    bool centred;                          // packets go through the middle of their pixel
     const struct alpi_camera_loops *loops; // for this machine, unless the context asks for less
 } alpi_view;
 

@@ -41,7 +41,8 @@ static void packet(const alpi_view *view, uint32_t pixel, uint32_t key, uint32_t
     EACH_RAY(ALPI_PACKET)
     {
         const vec2 u = alpi_sample_2d(key, first + i);
-        const vec3 d = through(&plane, (float)column + u.x, (float)row + u.y);
+        const float x = view->centred ? 0.5f : u.x, y = view->centred ? 0.5f : u.y;
+        const vec3 d = through(&plane, (float)column + x, (float)row + y);
         rays->origin_x[i] = view->origin.x;
         rays->origin_y[i] = view->origin.y;
         rays->origin_z[i] = view->origin.z;

@@ -159,6 +159,7 @@ static alp_result place_camera(render_job *job)
     alp_camera camera;
     ALP_TRY(alp_render_find_camera(job->scene, o, &camera));
     ALP_TRY(alpi_view_place(job->scene->context, &camera, o->width, o->height, &job->view));
+    job->view.centred = o->samples == 1;
     if (o->method == ALP_RENDER_HEMICUBE) {
         const float size = vec3_length(vec3_sub(job->scene->bounds_max, job->scene->bounds_min));
         job->view.origin = vec3_mad(job->view.origin, HEMICUBE_START * size, job->view.forward);

@@ -4,11 +4,13 @@
 #include "scene/lights/lighting.h"
 #include "scene/scene.h"
 
+#include <alpenglow/shared_constants.h>
+
 #include <math.h>
 
 // Physics: diffuse albedo is clamped here, so that closed rooms converge.
-static const float ALBEDO_LIMIT = 0.95f;
-static const float ALBEDO_WITHOUT_MATERIAL = 0.5f;
+static const float ALBEDO_LIMIT = (float)ALP_ALBEDO_LIMIT;
+static const float ALBEDO_WITHOUT_MATERIAL = (float)ALP_ALBEDO_WITHOUT_MATERIAL;
 
 alpi_texture alpi_texture_none(void)
 {

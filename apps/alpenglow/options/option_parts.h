@@ -6,7 +6,7 @@
 #include "options/options.h"
 
 #define RAY_COMMANDS (IN_BAKE | IN_RENDER)
-#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE | IN_LPV)
+#define LIGHT_COMMANDS (RAY_COMMANDS | IN_SAMPLE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_VIEW)
 #define SKY_COMMANDS (LIGHT_COMMANDS & ~IN_LPV)
 #define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
@@ -25,6 +25,7 @@ extern const option_part option_part_ambience;
 extern const option_part option_part_lpv;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
+extern const option_part option_part_view;
 extern const option_part option_part_later;
 
 #endif

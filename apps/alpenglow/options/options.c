@@ -327,7 +327,7 @@ const option *option_find(command_id command, const char *name, size_t length)
 /// The first command that has this option, or COMMAND_COUNT.
 static command_id command_with(const char *name, size_t length)
 {
-    for (command_id i = 0; i < COMMAND_BUILT_COUNT; i++) {
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
         if (option_find(i, name, length) != NULL) {
             return i;
         }
@@ -413,6 +413,16 @@ static const char *operand_names(command_id command)
            : command == COMMAND_SH    ? "one image, ENV"
            : command == COMMAND_BENCH ? "one ROOM at most"
                                       : "one SCENE";
+}
+
+bool arguments_ask_for_help(int count, char **words)
+{
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 int arguments_parse(command_id command, int count, char **words, command_line *parsed)

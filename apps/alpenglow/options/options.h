@@ -21,8 +21,7 @@ typedef enum command_id {
     COMMAND_LPV,
     COMMAND_SH,
     COMMAND_BENCH,
-    COMMAND_BUILT_COUNT, // the following commands of the contract are not built yet
-    COMMAND_VIEW = COMMAND_BUILT_COUNT,
+    COMMAND_VIEW,
     COMMAND_COUNT
 } command_id;
 
@@ -37,6 +36,7 @@ enum {
     IN_LPV = 1 << COMMAND_LPV,
     IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
+    IN_VIEW = 1 << COMMAND_VIEW,
 };
 
 /// Every option that can be given; OPTION_LATER stands for all that are not built yet.
@@ -147,6 +147,8 @@ typedef enum option_id {
     OPTION_MAP,
     OPTION_POINTS,
     OPTION_HEATMAP,
+    OPTION_REFERENCE,
+    OPTION_REFERENCE_THRESHOLD,
     OPTION_CONVENTION,
     OPTION_BENCH_SCENE,
     OPTION_QUICK,
@@ -235,9 +237,8 @@ typedef struct command_entry {
     const char *name;
     const char *synopsis;
     const char *summary;
-    int operand_count;                         // −n: up to n, none is needed
-    int (*run)(const command_line *arguments); // NULL: not built yet
-    const char *help; // paragraph under the synopsis; not built: the alternative
+    int operand_count; // −n: up to n, none is needed
+    const char *help;  // paragraph under the synopsis
 } command_entry;
 
 const command_entry *command_table(void);          ///< [COMMAND_COUNT]
@@ -266,6 +267,8 @@ enum { OPTION_FACTS_SIZE = 256 }; ///< size for option_facts
 const char *option_nearest(command_id command, const char *name);
 const char *command_nearest(const char *name);
 
+/// Whether one of the words before "--" is --help or -h.
+bool arguments_ask_for_help(int count, char **words);
 /// Parses the words after the command's name. @return EXIT_DONE, or EXIT_USAGE after a message.
 int arguments_parse(command_id command, int count, char **words, command_line *parsed);
 
@@ -286,16 +289,5 @@ int help_print_command(command_id command); ///< to stdout
 int manual_print(void);                     ///< alpenglow.1, as roff, to stdout
 int manual_print_command(command_id command);
 int completion_print(const char *shell); ///< "bash", "zsh" or "fish"; to stdout
-
-int command_bake(const command_line *arguments);
-int command_render(const command_line *arguments);
-int command_info(const command_line *arguments);
-int command_compare(const command_line *arguments);
-int command_sample(const command_line *arguments);
-int command_probes(const command_line *arguments);
-int command_ambience(const command_line *arguments);
-int command_lpv(const command_line *arguments);
-int command_sh(const command_line *arguments);
-int command_bench(const command_line *arguments);
 
 #endif

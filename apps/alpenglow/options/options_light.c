@@ -4,7 +4,7 @@
 
 static const option rows[] = {
     {.id = OPTION_TEXEL_SAMPLES,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--texel-samples",

@@ -34,7 +34,7 @@ static const option rows[] = {
              "ambient light, fitted to the scene's light (see sample). Light straight from "
              "lamps and suns is added at each pixel, with shadows (--direct)."},
     {.id = OPTION_CAMERA,
-     .commands = IN_RENDER | IN_LPV,
+     .commands = IN_RENDER | IN_VIEW | IN_LPV,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--camera",
@@ -47,7 +47,7 @@ static const option rows[] = {
              "auto: a view of everything; also the default for a scene without "
              "cameras."},
     {.id = OPTION_RESOLUTION,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--resolution",
@@ -64,7 +64,8 @@ static const option rows[] = {
      .maximum = 65536,
      .unit = "camera rays per pixel",
      .initial = "16",
-     .help = "Rays per pixel; more give smoother edges. Time grows with N. For "
+     .help = "Rays per pixel; more give smoother edges. Time grows with N. One goes through the "
+             "middle of the pixel. For "
              "reference and radiosity they are paths, rounded up to a multiple of 16, "
              "with noise of 1 / sqrt(N)."},
     {.id = OPTION_DIRECT,
@@ -136,7 +137,7 @@ static const option rows[] = {
      .help = "Edge of the front face of --with hemicube, an even number. The picture "
              "is the unfolded cross of 2 N x 2 N, instead of --resolution."},
     {.id = OPTION_EXPOSURE,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_REAL,
      .name = "--exposure",
@@ -150,7 +151,7 @@ static const option rows[] = {
              "auto: the geometric mean of the luminance becomes 18 % grey, without "
              "black pixels and the darkest and brightest 5 %. The EV is printed."},
     {.id = OPTION_TONE,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--tone",
@@ -163,7 +164,7 @@ static const option rows[] = {
              "filmic: Hable's curve, more contrast, white at 5.6\n"
              "none: clipped at 1"},
     {.id = OPTION_WHITE_BALANCE,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_REAL,
      .name = "--white-balance",

@@ -15,7 +15,7 @@ static const option rows[] = {
      .initial = "1024",
      .help = "Side of an atlas page. Time and memory grow with its square."},
     {.id = OPTION_SIZE,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--size",
@@ -57,7 +57,7 @@ static const option rows[] = {
              "blend: overlapping charts in three coordinate sets, for a shader that "
              "blends them by the normal, without seams (docs/manual/blend.md)."},
     {.id = OPTION_ATLAS,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
@@ -67,7 +67,7 @@ static const option rows[] = {
      .help = "Layout of the map, for --with lightmap, as in bake.\n"
              "average: the charts of blend with equal weights, for comparison."},
     {.id = OPTION_STITCH,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--stitch",

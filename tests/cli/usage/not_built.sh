@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# every option and command of the contract that is not built yet is refused by name
+# every option of the contract that is not built yet is refused by name
 . "$(dirname "$0")/helpers.bash"
 for option in --bounces --direct --gather --samples --units \
     --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as \
@@ -12,7 +12,3 @@ for option in --bounces; do
 done
 try info scene.glb --pictures folder
 try lpv scene.glb --sky 1,1,1
-for command in view; do
-    try $command
-    try $command scene.glb --help
-done

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Rows of the table of options: view.
+#include "options/option_parts.h"
+
+static const option rows[] = {
+    {.id = OPTION_OUTPUT,
+     .commands = IN_VIEW,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "IMAGE.png|IMAGE.exr|IMAGE.hdr",
+     .help = "The picture. .png: 8-bit sRGB. .exr: linear float, alpha is 1 where there is a "
+             "surface or a sky. .hdr: linear, without alpha."},
+    {.id = OPTION_PICTURES,
+     .commands = IN_VIEW,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--pictures",
+     .value = "DIR",
+     .help = "Folder for the pictures of a flight, made if missing: frame_0001.png and so on "
+             "(--path)."},
+    {.id = OPTION_WITH,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--with",
+     .value = "MODE",
+     .choices = "none|albedo|lightmap",
+     .help = "Light of the picture, required.\n"
+             "none: emission alone.\n"
+             "albedo: as render --with albedo.\n"
+             "lightmap: as render --with lightmap."},
+    {.id = OPTION_PATH,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--path",
+     .value = "FLIGHT.csv",
+     .help = "Flight of the camera, instead of --camera; with --pictures. Lines as of "
+             "ambience --path. - is standard input."},
+    {.id = OPTION_FRAMES,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_WHOLE,
+     .name = "--frames",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 1000000,
+     .initial = "60",
+     .help = "Pictures of the flight, at equal times from its first to its last line."},
+    {.id = OPTION_REFERENCE,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--reference",
+     .value = "IMAGE",
+     .help = "Compare the picture with IMAGE: linear with linear (.exr, .hdr), or 8-bit with 8-bit "
+             "(.png, .jpg). Prints the root mean square error (rmse), bytes as value / 255. Pixels "
+             "count as in compare."},
+    {.id = OPTION_REFERENCE_THRESHOLD,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--reference-threshold",
+     .value = "X",
+     .minimum = 0,
+     .maximum = 1e9,
+     .help = "Exit with 1 if rmse is above X, or if no pixel is covered in both."},
+};
+
+const option_part option_part_view = {rows, sizeof rows / sizeof *rows};

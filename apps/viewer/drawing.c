@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "drawing.h"
+
+#include "options/options.h"
+#include "picture.h"
+
+int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
+{
+    *d = (drawing){.scene = scene};
+    int code = gl_targets_create(o->width, o->height, &d->targets);
+    if (code == EXIT_DONE) {
+        code = pass_surfaces_create(o->mode, o->metals_black, &d->surfaces);
+    }
+    if (code == EXIT_DONE && (o->mode->uses & USES_BACKGROUND) != 0) {
+        code = pass_background_create(o->lighting, &d->background);
+    }
+    code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
+    return code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+}
+
+void drawing_destroy(drawing *d)
+{
+    mode_light_destroy(&d->light);
+    gl_scene_destroy(&d->drawn);
+    pass_film_destroy(&d->film);
+    pass_background_destroy(&d->background);
+    pass_surfaces_destroy(&d->surfaces);
+    gl_targets_destroy(&d->targets);
+}
+
+void drawing_draw(const drawing *d, const alp_camera *camera)
+{
+    const alp_scene_info info = alp_scene_get_info(d->scene);
+    const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
+    pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, &view, &d->targets);
+    pass_background_draw(&d->background, &view);
+}
+
+alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,
+                           alp_image **developed, alp_image **light)
+{
+    alp_film_numbers numbers;
+    alp_image *own = NULL;
+    *developed = NULL;
+    alp_result result = picture_read_light(context, &d->targets, &own);
+    if (result == ALP_OK) {
+        result = alp_film_resolve(own, film, &numbers);
+    }
+    if (result == ALP_OK) {
+        pass_film_draw(&d->film, film, &numbers, &d->targets);
+        film->exposure = numbers.exposure;
+        result = picture_read_developed(context, &d->targets, developed);
+    }
+    if (light != NULL) {
+        *light = own;
+    } else {
+        alp_image_destroy(own);
+    }
+    return result;
+}

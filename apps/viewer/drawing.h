@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// All that draws a frame: targets, scene, light and passes.
+#ifndef VIEWER_DRAWING_H
+#define VIEWER_DRAWING_H
+
+#include "pass_background.h"
+#include "pass_film.h"
+#include "pass_surfaces.h"
+
+typedef struct drawing {
+    const alp_scene *scene;
+    gl_targets targets;
+    gl_scene drawn;
+    pass_surfaces surfaces;
+    pass_background background;
+    pass_film film;
+    mode_light light; // of the mode; the caller fills it
+} drawing;
+
+typedef struct drawing_options {
+    const view_mode *mode;
+    const alp_lighting_options *lighting;
+    uint32_t width, height;
+    bool metals_black;
+    bool level_zero; // textures are read bilinearly without mip levels, as by render
+} drawing_options;
+
+/// Makes it in the current context of OpenGL.
+/// @return EXIT_DONE, or EXIT_FAILED after a message; drawing_destroy in both cases
+int drawing_create(const alp_scene *scene, const drawing_options *options, drawing *d);
+void drawing_destroy(drawing *d);
+
+/// Draws a frame of light.
+void drawing_draw(const drawing *d, const alp_camera *camera);
+/// Develops it by alp_film_develop's numbers.
+/// @param film  out: exposure becomes the one that was used
+/// @param light NULL, or out: the light; the caller destroys both
+alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,
+                           alp_image **developed, alp_image **light);
+
+#endif

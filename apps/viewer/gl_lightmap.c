@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "gl_lightmap.h"
+
+#include "messages.h"
+#include "options/options.h"
+#include "shaders/bindings.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { CORNERS = 3, SETS = 3 };
+
+static int load_pages(const alp_lightmap *lightmap, gl_lightmap *d)
+{
+    uint32_t width = 0, height = 0;
+    const uint32_t count = alp_lightmap_page_count(lightmap);
+    GLint layers = 0, side = 0;
+    alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, 0, &width, &height);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    if (count > (uint32_t)layers || width > (uint32_t)side || height > (uint32_t)side) {
+        char text[192];
+        snprintf(text, sizeof text,
+                 "the light map has %u pages of %u x %u texels, and the graphics card takes %d of "
+                 "%d x %d",
+                 count, width, height, layers, side, side);
+        return failure(text);
+    }
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &d->pages);
+    glTextureStorage3D(d->pages, 1, GL_RGBA32F, (GLsizei)width, (GLsizei)height, (GLsizei)count);
+    for (uint32_t p = 0; p < count; p++) {
+        glTextureSubImage3D(d->pages, 0, 0, 0, (GLint)p, (GLsizei)width, (GLsizei)height, 1,
+                            GL_RGBA, GL_FLOAT,
+                            alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, p, NULL, NULL));
+    }
+    return EXIT_DONE;
+}
+
+/// The sets that a triangle has a chart in, bit by bit. In others it has the coordinates of its
+/// strongest axis. A triangle without area is in none, and all sets are alike.
+/// @param strongest [corner][2]   @param sets [set][corner][2]
+static GLuint sets_of(const float *strongest, const float *sets)
+{
+    const size_t corners = (size_t)2 * CORNERS;
+    GLuint members = 0;
+    bool found = false; // the strongest itself, or one that is like it
+    for (GLuint k = 0; k < SETS; k++) {
+        const bool same = memcmp(sets + k * corners, strongest, corners * sizeof *sets) == 0;
+        members |= same && found ? 0u : 1u << k;
+        found = found || same;
+    }
+    return members;
+}
+
+static void load_triangles(const alp_scene *scene, const alp_atlas *atlas, gl_lightmap *d)
+{
+    const size_t count = alp_scene_get_info(scene).triangles;
+    const uint32_t *pages = alp_atlas_triangle_pages(atlas);
+    const float *strongest = alp_atlas_corner_uvs(atlas), *blended = alp_atlas_blend_uvs(atlas);
+    const size_t corners = (size_t)2 * CORNERS;
+    GLuint *entries = allocate_or_exit(NULL, count * sizeof *entries + 1);
+    for (size_t t = 0; t < count; t++) {
+        const GLuint sets =
+            blended == NULL ? 1u : sets_of(strongest + t * corners, blended + t * SETS * corners);
+        entries[t] = pages[t] == UINT32_MAX ? MAP_NONE : pages[t] | sets << MAP_SETS_SHIFT;
+    }
+    d->sets = blended != NULL ? SETS : 1;
+    glCreateBuffers(1, &d->uvs);
+    glCreateBuffers(1, &d->triangles);
+    glNamedBufferStorage(d->uvs, (GLsizeiptr)(count * d->sets * corners * sizeof *strongest),
+                         blended != NULL ? blended : strongest, 0);
+    glNamedBufferStorage(d->triangles, (GLsizeiptr)(count * sizeof *entries), entries, 0);
+    free(entries);
+}
+
+int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp_blend blend,
+                       gl_lightmap *d)
+{
+    *d = (gl_lightmap){.equal = blend == ALP_BLEND_AVERAGE};
+    const int code = load_pages(lightmap, d);
+    if (code == EXIT_DONE) {
+        load_triangles(scene, alp_lightmap_atlas(lightmap), d);
+    }
+    return code;
+}
+
+void gl_lightmap_destroy(gl_lightmap *d)
+{
+    glDeleteTextures(1, &d->pages);
+    glDeleteBuffers(1, &d->uvs);
+    glDeleteBuffers(1, &d->triangles);
+    *d = (gl_lightmap){0};
+}
+
+void gl_lightmap_bind(const gl_lightmap *d)
+{
+    glBindTextureUnit(TEXTURE_LIGHTMAP, d->pages);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_MAP_UVS, d->uvs);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_MAP_TRIANGLES, d->triangles);
+    glUniform1ui(UNIFORM_MAP_SETS, d->sets);
+    glUniform1i(UNIFORM_MAP_EQUAL, d->equal);
+}

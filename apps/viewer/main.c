@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// alpenglow-view: draws scenes by OpenGL. `alpenglow view` runs it with the same arguments.
+#include "options/options.h"
+#include "streams.h"
+#include "view_run.h"
+
+static int run(int count, char **words)
+{
+    command_line parsed;
+    if (arguments_ask_for_help(count, words)) {
+        return help_print_command(COMMAND_VIEW);
+    }
+    const int code = arguments_parse(COMMAND_VIEW, count, words, &parsed);
+    return code == EXIT_DONE ? view_run(&parsed) : code;
+}
+
+int main(int count, char **words)
+{
+    streams_open();
+    return streams_close(run(count > 0 ? count - 1 : 0, words + 1));
+}

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The shaders that are compiled by themselves, shaders/NAME.vert and .frag, as the build embeds
+// them.
+#ifndef VIEWER_SHADER_LIST_H
+#define VIEWER_SHADER_LIST_H
+
+#include "gl_program.h"
+
+extern const gl_shader shader_surfaces_vert; // corners of triangles
+extern const gl_shader shader_none_frag, shader_albedo_frag, shader_lightmap_frag; // of modes
+extern const gl_shader shader_screen_vert; // the whole picture
+extern const gl_shader shader_background_frag, shader_film_frag;
+
+#endif

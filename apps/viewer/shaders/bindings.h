@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Numbers that C and the shaders share: bindings of buffers and textures, locations of uniforms.
+// This file is valid C and GLSL.
+#ifndef VIEWER_BINDINGS_H
+#define VIEWER_BINDINGS_H
+
+// Storage buffers.
+#define BUFFER_POSITIONS 0     // float [vertex][3]
+#define BUFFER_NORMALS 1       // float [vertex][3]
+#define BUFFER_COLORS 2        // float [vertex][4]; one element where all are 1
+#define BUFFER_UVS 3           // float [slot in use][vertex][2]
+#define BUFFER_TRIANGLES 4     // uint [triangle][3]
+#define BUFFER_MATERIALS 5     // material [material + 1]; the last is that of no material
+#define BUFFER_MAP_UVS 6       // float [triangle][set][corner][2] of the light map
+#define BUFFER_MAP_TRIANGLES 7 // uint [triangle] page, and which sets count
+
+// Textures of a material.
+#define TEXTURE_BASE_COLOR 0
+#define TEXTURE_METALLIC 1
+#define TEXTURE_EMISSION 2
+#define TEXTURE_TRANSMISSION 3
+#define TEXTURE_USES 4
+// Other textures.
+#define TEXTURE_LIGHTMAP 8
+#define TEXTURE_SKY 9
+#define TEXTURE_PICTURE 10
+
+// Uniforms of all passes that know the camera.
+#define UNIFORM_ORIGIN 0  // vec3, metres
+#define UNIFORM_FORWARD 1 // vec3, unit
+#define UNIFORM_RIGHT 2   // vec3: x of the picture at distance 1, from -1 to 1, times this
+#define UNIFORM_UP 3      // vec3: the same of y
+#define UNIFORM_NEAR 4    // float, metres
+#define UNIFORM_SIZE 5    // vec2, pixels
+// Of pass_surfaces.
+#define UNIFORM_MATERIAL 8   // uint
+#define UNIFORM_VERTICES 9   // uint, vertices of the scene
+#define UNIFORM_COLORED 10   // bool, whether vertices have colours
+#define UNIFORM_METALS 11    // bool, whether metals are black
+#define UNIFORM_AXES 12      // vec3 [3] of the surface's object
+#define UNIFORM_MAP_SETS 15  // uint, coordinate sets of the light map: 1, or 3 that are blended
+#define UNIFORM_MAP_EQUAL 16 // bool, whether sets that count have equal weight
+// Of pass_background.
+#define UNIFORM_SKY_KIND 8  // int, SKY_...
+#define UNIFORM_SKY_UP 9    // vec3, radiance
+#define UNIFORM_SKY_DOWN 10 // vec3, radiance
+#define UNIFORM_SKY_TURN 11 // float, radians
+// Of pass_film.
+#define UNIFORM_GAIN 8     // float, 2^exposure
+#define UNIFORM_TONE 9     // int, an alp_tone
+#define UNIFORM_WHITE 10   // float, the L that becomes white
+#define UNIFORM_BALANCE 11 // mat3
+#define UNIFORM_DITHER 12  // bool, whether rounding is hashed
+
+// Kinds of sky.
+#define SKY_NONE 0
+#define SKY_COLORS 1
+#define SKY_IMAGE 2
+
+// Slots of texture coordinates: no such slot.
+#define NO_SLOT 255u
+
+// Entries of BUFFER_MAP_TRIANGLES: the page, and above it one bit for each set that counts.
+#define MAP_NONE 0xffffffffu // not in the map
+#define MAP_PAGE 0x0fffffffu
+#define MAP_SETS_SHIFT 28
+
+#endif

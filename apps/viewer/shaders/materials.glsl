@@ -1,0 +1,20 @@
+// Materials as alp_scene_get_material states them.
+#include "bindings.h"
+
+const uint ALPHA_OPAQUE = 0u, ALPHA_MASK = 1u, ALPHA_BLEND = 2u;
+
+struct material {
+    vec4 base_color;
+    vec4 emission;     // rgb; a: alpha cutoff
+    float metallic, transmission;
+    uint alpha_mode;
+    uint flags;        // 1: double-sided, 2: is a material
+    uvec4 slots;       // of TEXTURE_...: slot in use, or NO_SLOT
+    vec4 rows[2 * TEXTURE_USES]; // of TEXTURE_...: u' = dot(row.xyz, (u, v, 1)), then v'
+};
+
+layout(std430, binding = BUFFER_MATERIALS) readonly buffer material_list {
+    material materials[];
+};
+
+layout(location = UNIFORM_MATERIAL) uniform uint material_index;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Modes of --with: where the light of surfaces comes from.
+#ifndef VIEWER_VIEW_MODES_H
+#define VIEWER_VIEW_MODES_H
+
+#include "gl_lightmap.h"
+#include "gl_program.h"
+#include "session.h"
+
+/// The light of a mode on the graphics card. Parts of other modes are empty.
+typedef struct mode_light {
+    gl_lightmap lightmap;
+} mode_light;
+
+/// Options that a mode reads.
+typedef enum mode_use {
+    USES_METALS = 1,
+    USES_BACKGROUND = 2, // sky and suns, which are seen behind the surfaces
+    USES_LIGHTS = 4,     // lamps, and bounces
+    USES_ATLAS = 8
+} mode_use;
+
+typedef struct view_mode {
+    const gl_shader *fragment;
+    unsigned uses;            // of mode_use
+    alp_render_method method; // of render, whose film the picture has
+    /// Makes the light. NULL: there is none.
+    /// @return EXIT_DONE, or an exit code after a message
+    int (*prepare)(session *s, const command_line *arguments, const alp_render_options *options,
+                   mode_light *light);
+    /// Binds it, and sets the uniforms of the current program. NULL: there is none.
+    void (*bind)(const mode_light *light);
+} view_mode;
+
+/// The mode of --with.
+const view_mode *view_mode_of(const command_line *arguments);
+/// Refuses options that the mode does not use. @return EXIT_DONE, or EXIT_USAGE after a message
+int view_mode_check(const command_line *arguments);
+void mode_light_destroy(mode_light *light);
+
+#endif

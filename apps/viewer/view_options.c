@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "view_options.h"
+
+#include "cameras.h"
+#include "film.h"
+#include "lighting.h"
+#include "output.h"
+#include "views.h"
+
+/// Refuses outputs that are missing, and options of the other kind of output.
+static int check_output(const command_line *a)
+{
+    static const struct {
+        const char *name;
+        option_id id;
+        bool flight;
+    } read_by[] = {{"--frames", OPTION_FRAMES, true},
+                   {"--path", OPTION_PATH, true},
+                   {"--camera", OPTION_CAMERA, false},
+                   {"--reference", OPTION_REFERENCE, false},
+                   {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, false}};
+    const option_value *v = a->values;
+    const bool flight = v[OPTION_PICTURES].given;
+    if (v[OPTION_OUTPUT].given == flight) {
+        return usage_error(COMMAND_VIEW, flight ? "-o and --pictures are two outputs; give one"
+                                                : "no output; give -o IMAGE.png for a picture, or "
+                                                  "--path FLIGHT.csv --pictures DIR for a flight");
+    }
+    for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
+        if (v[read_by[i].id].given && read_by[i].flight != flight) {
+            return usage_error(COMMAND_VIEW, "%s: does not apply to %s", read_by[i].name,
+                               flight ? "--pictures" : "-o");
+        }
+    }
+    if (flight && !v[OPTION_PATH].given) {
+        return usage_error(COMMAND_VIEW, "no flight; give --path FLIGHT.csv, lines of "
+                                         "t,px,py,pz,tx,ty,tz[,vfov]");
+    }
+    return EXIT_DONE;
+}
+
+static int check_image(const command_line *a)
+{
+    const char *output = a->values[OPTION_OUTPUT].text;
+    if (output == NULL || path_ends(output, ".png")) {
+        return EXIT_DONE;
+    }
+    if (!path_ends(output, ".exr") && !path_ends(output, ".hdr")) {
+        return usage_error(COMMAND_VIEW, "-o %s: the name must end in .png, .exr or .hdr", output);
+    }
+    return film_refuse(a, output);
+}
+
+static int check_reference(const command_line *a)
+{
+    if (a->values[OPTION_REFERENCE_THRESHOLD].given && !a->values[OPTION_REFERENCE].given) {
+        return usage_error(COMMAND_VIEW, "--reference-threshold: needs --reference IMAGE");
+    }
+    return EXIT_DONE;
+}
+
+static int read_light(const command_line *a, view_settings *s)
+{
+    alp_render_options *o = &s->render;
+    *o = alp_render_options_default();
+    o->method = s->mode->method;
+    o->atlas.size = (uint32_t)a->values[OPTION_SIZE].whole;
+    o->occlusion.seed = a->values[OPTION_SEED].whole;
+    o->bounces = lighting_bounces(a);
+    return lighting_read(a, &o->lighting, &s->lamps);
+}
+
+int view_settings_read(const command_line *a, view_settings *s)
+{
+    *s = (view_settings){0};
+    int code = check_output(a);
+    code = code == EXIT_DONE ? check_image(a) : code;
+    code = code == EXIT_DONE ? check_reference(a) : code;
+    if (code == EXIT_DONE && !a->values[OPTION_WITH].given) {
+        code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, albedo or none");
+    }
+    code = code == EXIT_DONE ? view_mode_check(a) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    s->mode = view_mode_of(a);
+    code = read_light(a, s);
+    if (code == EXIT_DONE) {
+        code = resolution_read(a, &s->render.width, &s->render.height);
+    }
+    if (code == EXIT_DONE) {
+        code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, &s->render);
+    }
+    s->film = film_read(a, s->mode->method);
+    if (code == EXIT_DONE && a->values[OPTION_OUTPUT].given) {
+        code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);
+    }
+    return code;
+}

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+# view: outputs, modes, and options that a mode or an output does not use
+. "$(dirname "$0")/helpers.bash"
+view="view scene.glb -o out.png"
+flight="view scene.glb --path flight.csv --pictures frames"
+try view
+try view scene.glb --with lightmap
+try view scene.glb --with lightmap -o out.jpg
+try view scene.glb --with lightmap -o out.png --pictures frames
+try view scene.glb --with lightmap --pictures frames
+try $view
+try $view --with radiosity
+try $view --with lightmap --frames 3
+try $view --with lightmap --path flight.csv
+try $view --with lightmap --resolution 0x10
+try $view --with lightmap --camera wrong
+try $view --with lightmap --reference-threshold 0.1
+try view scene.glb -o out.exr --with lightmap --exposure 1
+for option in "--camera 0" "--reference a.png" "--frames 0"; do
+    try $flight --with lightmap $option
+done
+for option in "--size 64" "--atlas charts" "--stitch off" "--texel-samples 4" "--bounces 1" \
+    "--lamp 0,0,0,1" "--seed 1"; do
+    try $view --with none $option
+done
+for option in "--sky 1,1,1" "--sun 0,45,1" "--sun-size 1"; do
+    try $view --with albedo $option
+done
+try $view --with lightmap --samples 4
