@@ -13,12 +13,12 @@
 
 enum { TERMS = 12, CASCADE_STEPS = 8 };
 
-static GLuint create_texture(const uint32_t size[3])
+static GLuint create_texture(const uint32_t size[3], uint32_t times)
 {
     GLuint texture = 0;
     glCreateTextures(GL_TEXTURE_3D, 1, &texture);
     glTextureStorage3D(texture, 1, GL_RGBA32F, (GLsizei)size[0], (GLsizei)size[1],
-                       (GLsizei)size[2]);
+                       (GLsizei)(size[2] * times));
     glClearTexImage(texture, 0, GL_RGBA, GL_FLOAT, NULL);
     return texture;
 }
@@ -30,17 +30,15 @@ int gl_lpv_create(const alp_lpv_options *o, gl_lpv *v)
     *v = (gl_lpv){.options = *o};
     glCreateBuffers(1, &v->injected);
     glNamedBufferStorage(v->injected,
-                         (GLsizeiptr)(sizeof(GLint) * TERMS * cells[0] * cells[1] * cells[2]),
-                         NULL, GL_DYNAMIC_STORAGE_BIT);
-    v->opacities = create_texture(nodes);
-    v->albedos = create_texture(nodes);
-    for (int k = 0; k < 3; k++) {
-        v->faces[k] = create_texture(nodes);
-        v->colors[k] = create_texture(nodes);
-        v->light[0][k] = create_texture(cells);
-        v->light[1][k] = create_texture(cells);
-        v->sum[k] = create_texture(cells);
-    }
+                         (GLsizeiptr)(sizeof(GLint) * TERMS * cells[0] * cells[1] * cells[2]), NULL,
+                         GL_DYNAMIC_STORAGE_BIT);
+    v->opacities = create_texture(nodes, 1);
+    v->albedos = create_texture(nodes, 1);
+    v->faces = create_texture(nodes, 3);
+    v->colors = create_texture(nodes, 3);
+    v->light[0] = create_texture(cells, 3);
+    v->light[1] = create_texture(cells, 3);
+    v->sum = create_texture(cells, 3);
     v->start = gl_program_create_compute(&shader_lpv_start_comp);
     v->face = gl_program_create_compute(&shader_lpv_faces_comp);
     v->step = gl_program_create_compute(&shader_lpv_step_comp);
@@ -52,14 +50,10 @@ void gl_lpv_destroy(gl_lpv *v)
     if (v->injected == 0) {
         return;
     }
-    const GLuint pair[2] = {v->opacities, v->albedos};
+    const GLuint textures[] = {v->opacities, v->albedos,  v->faces, v->colors,
+                               v->light[0],  v->light[1], v->sum};
     glDeleteBuffers(1, &v->injected);
-    glDeleteTextures(2, pair);
-    glDeleteTextures(3, v->faces);
-    glDeleteTextures(3, v->colors);
-    glDeleteTextures(3, v->light[0]);
-    glDeleteTextures(3, v->light[1]);
-    glDeleteTextures(3, v->sum);
+    glDeleteTextures(sizeof textures / sizeof *textures, textures);
     glDeleteProgram(v->start);
     glDeleteProgram(v->face);
     glDeleteProgram(v->step);
@@ -74,6 +68,7 @@ static void use(const gl_lpv *v, GLuint program)
     const float along = (float)ALP_LPV_ALONG, aside = (float)ALP_LPV_ASIDE;
     glUseProgram(program);
     glUniform3i(UNIFORM_LPV_SIZE, (GLint)size[0], (GLint)size[1], (GLint)size[2]);
+    glUniform1i(UNIFORM_LPV_CASCADES, (GLint)v->options.cascades);
     glUniform3f(UNIFORM_LPV_READ, 1.0f, along, aside);
     glUniform2f(UNIFORM_LPV_GIVE, accurate ? along : 0.0f, accurate ? aside : 1.0f);
     glUniform1f(UNIFORM_LPV_OPACITY, accurate ? (float)ALP_LPV_OPACITY : 1.0f);
@@ -90,19 +85,9 @@ static void run(const gl_lpv *v, uint32_t more)
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-static void bind_images(GLuint first, const GLuint textures[3], GLenum access)
+static void bind_image(GLuint unit, GLuint texture, GLenum access)
 {
-    for (GLuint k = 0; k < 3; k++) {
-        glBindImageTexture(first + k, textures[k], 0, GL_TRUE, 0, access, GL_RGBA32F);
-    }
-}
-
-static void swap_light(gl_lpv *v)
-{
-    GLuint kept[3];
-    memcpy(kept, v->light[0], sizeof kept);
-    memcpy(v->light[0], v->light[1], sizeof kept);
-    memcpy(v->light[1], kept, sizeof kept);
+    glBindImageTexture(unit, texture, 0, GL_TRUE, 0, access, GL_RGBA32F);
 }
 
 static uint32_t count_steps(const alp_lpv_options *o)
@@ -119,32 +104,30 @@ void gl_lpv_propagate(gl_lpv *v)
         use(v, v->face);
         glBindTextureUnit(0, v->opacities);
         glBindTextureUnit(1, v->albedos);
-        bind_images(0, v->faces, GL_WRITE_ONLY);
-        bind_images(3, v->colors, GL_WRITE_ONLY);
+        bind_image(0, v->faces, GL_WRITE_ONLY);
+        bind_image(1, v->colors, GL_WRITE_ONLY);
         run(v, 1);
     }
     use(v, v->start);
     glUniform3fv(UNIFORM_LPV_UNITS, 1, v->units);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_INJECTED, v->injected);
-    bind_images(0, v->light[0], GL_WRITE_ONLY);
-    bind_images(3, v->sum, GL_WRITE_ONLY);
+    bind_image(0, v->light[0], GL_WRITE_ONLY);
+    bind_image(1, v->sum, GL_WRITE_ONLY);
     run(v, 0);
     use(v, v->step);
-    for (GLuint k = 0; k < 3; k++) {
-        glBindTextureUnit(3 + k, v->faces[k]);
-        glBindTextureUnit(6 + k, v->colors[k]);
-    }
-    bind_images(3, v->sum, GL_READ_WRITE);
+    glBindTextureUnit(1, v->faces);
+    glBindTextureUnit(2, v->colors);
+    bind_image(1, v->sum, GL_READ_WRITE);
     for (uint32_t i = 0; i < steps; i++) {
         // Blockers of the surface that light leaves would stop it in the first step.
         const bool blocked = v->options.blockers && i > 0;
+        const GLuint now = v->light[0];
         glUniform1i(UNIFORM_LPV_BLOCKED, blocked);
         glUniform1i(UNIFORM_LPV_REFLECTS, blocked && v->options.bounces != 1);
-        for (GLuint k = 0; k < 3; k++) {
-            glBindTextureUnit(k, v->light[0][k]);
-        }
-        bind_images(0, v->light[1], GL_WRITE_ONLY);
+        glBindTextureUnit(0, now);
+        bind_image(0, v->light[1], GL_WRITE_ONLY);
         run(v, 0);
-        swap_light(v);
+        v->light[0] = v->light[1];
+        v->light[1] = now;
     }
 }

@@ -7,15 +7,16 @@
 
 #include <epoxy/gl.h>
 
-/// Grids of all cascades lie one behind the other along z, in textures of four floats.
+/// A volume. Textures have four floats an element. The grids of all cascades lie one behind the
+/// other along z, first those of red, or of faces across x.
 typedef struct gl_lpv {
     alp_lpv_options options;
-    GLuint injected; // buffer: int [cascade][z][y][x][channel][term], in units
-    float units[3];  // of the channels, W/sr
-    GLuint opacities, albedos; // of nodes: B(w) = p.x + p.yzw . w; albedo × p.x
-    GLuint faces[3], colors[3]; // low faces across each axis: opacity, albedo
-    GLuint light[2][3], sum[3]; // by channel: I(w) = p.x + p.yzw . w; light[0] travels next
-    GLuint start, face, step;   // programs
+    GLuint injected;           // buffer: int [cascade][z][y][x][channel][term], in units
+    float units[3];            // of the channels, W/sr
+    GLuint opacities, albedos; // of nodes, without channels: B(w) = p.x + p.yzw . w; albedo × p.x
+    GLuint faces, colors;      // low faces: opacity, albedo
+    GLuint light[2], sum;      // I(w) = p.x + p.yzw . w; light[0] travels next
+    GLuint start, face, step;  // programs
 } gl_lpv;
 
 /// An empty volume.

@@ -16,9 +16,10 @@
 #define UNIFORM_LPV_GIVE 18     // vec2, the lobe of a side face: along, aside
 #define UNIFORM_LPV_OPACITY 19  // float, factor on blockers
 #define UNIFORM_LPV_BY_ANGLE 20 // bool, whether blockers of one orientation stop light by its angle
+#define UNIFORM_LPV_CASCADES 21 // int
 // Of one pass.
-#define UNIFORM_LPV_UNITS 21    // vec3, of the channels, W/sr
-#define UNIFORM_LPV_BLOCKED 22  // bool, whether blockers stop light
-#define UNIFORM_LPV_REFLECTS 23 // bool, whether they throw it back
+#define UNIFORM_LPV_UNITS 22    // vec3, of the channels, W/sr
+#define UNIFORM_LPV_BLOCKED 23  // bool, whether blockers stop light
+#define UNIFORM_LPV_REFLECTS 24 // bool, whether they reflect it
 
 #endif

@@ -7,13 +7,12 @@ layout(local_size_x = LPV_GROUP_X, local_size_y = LPV_GROUP_Y, local_size_z = LP
 // Nodes lie at the corners of cells: one more along each axis.
 layout(binding = 0) uniform sampler3D opacities; // B(w) = p.x + p.yzw . w
 layout(binding = 1) uniform sampler3D albedos;   // times p.x
-// By the axis that the face lies across.
-layout(rgba32f, binding = 0) writeonly uniform image3D faces[3];  // p.x, and along the three axes
-layout(rgba32f, binding = 3) writeonly uniform image3D colors[3]; // albedo
+layout(rgba32f, binding = 0) writeonly uniform image3D faces; // p.x, and along the three axes
+layout(rgba32f, binding = 1) writeonly uniform image3D colors; // albedo
 
 void main()
 {
-    ivec3 at = ivec3(gl_GlobalInvocationID), size = imageSize(faces[0]);
+    ivec3 at = ivec3(gl_GlobalInvocationID), size = ivec3(grid_size.xy + 1, axis_step().z);
     if (any(greaterThanEqual(at, size))) {
         return;
     }
@@ -22,9 +21,8 @@ void main()
         vec4 b = vec4(0.0);
         vec3 color = vec3(0.0);
         for (int corner = 0; corner < 4; corner++) {
-            ivec3 step = ivec3(0), axes = axes_of(axis);
-            step[axes.y] = corner & 1;
-            step[axes.z] = corner >> 1;
+            ivec3 step = (corner & 1) * unit_of((axis + 1) % 3) +
+                         (corner >> 1) * unit_of((axis + 2) % 3);
             // Faces beyond the last cell of another axis belong to no cell.
             step *= ivec3(lessThan(ivec3(at.xy, z), grid_size));
             b += texelFetch(opacities, at + step, 0);
@@ -37,7 +35,8 @@ void main()
         } else {
             b *= 0.25 * lpv_opacity;
         }
-        imageStore(faces[axis], at, b);
-        imageStore(colors[axis], at, vec4(sum > 0.0 ? color / sum : vec3(0.0), 0.0));
+        imageStore(faces, at + axis * axis_step(), b);
+        imageStore(colors, at + axis * axis_step(),
+                   vec4(sum > 0.0 ? color / sum : vec3(0.0), 0.0));
     }
 }

@@ -8,12 +8,12 @@ layout(std430, binding = BUFFER_LPV_INJECTED) readonly buffer injected_light {
     int injected[]; // [cascade][z][y][x][channel][term], in units
 };
 layout(location = UNIFORM_LPV_UNITS) uniform vec3 units; // of the channels, W/sr
-layout(rgba32f, binding = 0) writeonly uniform image3D light[3];
-layout(rgba32f, binding = 3) writeonly uniform image3D sum[3];
+layout(rgba32f, binding = 0) writeonly uniform image3D light;
+layout(rgba32f, binding = 1) writeonly uniform image3D sum;
 
 void main()
 {
-    ivec3 at = ivec3(gl_GlobalInvocationID), size = imageSize(light[0]);
+    ivec3 at = ivec3(gl_GlobalInvocationID), size = ivec3(grid_size.xy, channel_step().z);
     if (any(greaterThanEqual(at, size))) {
         return;
     }
@@ -22,7 +22,7 @@ void main()
         int first = cell + 4 * channel;
         vec4 p = units[channel] * vec4(injected[first], injected[first + 1], injected[first + 2],
                                        injected[first + 3]);
-        imageStore(light[channel], at, scale_light(p));
-        imageStore(sum[channel], at, p);
+        imageStore(light, at + channel * channel_step(), scale_light(p));
+        imageStore(sum, at + channel * channel_step(), p);
     }
 }
