@@ -12,6 +12,8 @@
 #endif
 /// For functions that are called with constants.
 #define ALWAYS_INLINE __attribute__((always_inline)) static inline
+/// For loops with many values at a time, so that these lie close together on the stack.
+#define APART __attribute__((noinline)) static
 
 enum {
     TERMS = ALPI_LPV_TERMS,

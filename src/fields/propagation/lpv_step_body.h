@@ -174,6 +174,23 @@ ALWAYS_INLINE void gather_row(const row_work *w, bool blocked,
     }
 }
 
+typedef void gather_fn(const row_work *w, float *next, float *sum);
+
+APART void gather_free(const row_work *w, float *next, float *sum)
+{
+    gather_row(w, false, false, next, sum);
+}
+
+APART void gather_blocked(const row_work *w, float *next, float *sum)
+{
+    gather_row(w, true, false, next, sum);
+}
+
+APART void gather_reflected(const row_work *w, float *next, float *sum)
+{
+    gather_row(w, true, true, next, sum);
+}
+
 // --- rows and their neighbours -------------------------------------------------------------------
 
 static const float dark[ALPI_LPV_ROWS * (ALPI_LPV_SIDE_MOST + 2)]; // light beyond the grid
@@ -214,6 +231,9 @@ static void step_cells(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32
                                      light_at(g, y, (int64_t)z - 1, step->wraps) + first + 1,
                                      light_at(g, y, (int64_t)z + 1, step->wraps) + first + 1};
     const float *albedo[DIRECTIONS] = {NULL};
+    gather_fn *gather = step->reflects  ? gather_reflected
+                        : step->blocked ? gather_blocked
+                                        : gather_free;
     face_shares shares;
     row_work w = {.count = count,
                   .light_step = g->size[0] + 2,
@@ -232,13 +252,7 @@ static void step_cells(const alpi_lpv_grid *g, const alpi_lpv_step *step, uint32
             w.from[d] = from[d] + rows * w.light_step;
             w.albedo[d] = step->blocked ? albedo[d] + channel * (g->size[0] + 1) : NULL;
         }
-        if (step->reflects) {
-            gather_row(&w, true, true, next, sum);
-        } else if (step->blocked) {
-            gather_row(&w, true, false, next, sum);
-        } else {
-            gather_row(&w, false, false, next, sum);
-        }
+        gather(&w, next, sum);
     }
 }
 
