@@ -29,11 +29,11 @@
 enum {
     ALPI_LPV_SIDE_MOST = 512,
     ALPI_LPV_CASCADES_MOST = 8,
-    ALPI_LPV_TERMS = 4,                 // p0, px, py, pz
-    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS, // of light in a cell, by channel
-    ALPI_LPV_DIRECTIONS = 6,            // of travel: +x, −x, +y, −y, +z, −z
-    ALPI_LPV_FACES = 5,                 // of a neighbour: the far one, four sides
-    ALPI_LPV_AXIS_ROWS = ALPI_LPV_TERMS + 3, // of faces across an axis: opacity, and albedo
+    ALPI_LPV_TERMS = 4,                       // p0, px, py, pz
+    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS,       // of light in a cell, by channel
+    ALPI_LPV_DIRECTIONS = 6,                  // of travel: +x, −x, +y, −y, +z, −z
+    ALPI_LPV_FACES = 5,                       // of a neighbour: the far one, four sides
+    ALPI_LPV_AXIS_ROWS = ALPI_LPV_TERMS + 3,  // of faces across an axis: opacity, and albedo
     ALPI_LPV_NODE_TERMS = ALPI_LPV_TERMS + 3, // opacity, and albedo × opacity
 };
 
