@@ -61,7 +61,7 @@ typedef struct alp_lpv_options {
 } alp_lpv_options;
 ALP_API alp_lpv_options alp_lpv_options_default(void);
 
-/// Bytes that a volume of these options holds: about 200 a cell. With blockers 212 more for each
+/// Bytes that a volume of these options holds: about 200 a cell. With blockers 140 more for each
 /// corner of cells.
 ALP_API uint64_t alp_lpv_memory(const alp_lpv_options *options);
 

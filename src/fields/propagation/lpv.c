@@ -66,7 +66,7 @@ uint64_t alp_lpv_memory(const alp_lpv_options *o)
 {
     const uint64_t cells = alpi_lpv_cells(o->size), nodes = alpi_lpv_nodes(o->size);
     const uint64_t light = 2 * ALPI_LPV_ROWS * (cells + alpi_lpv_wide_cells(o->size));
-    const uint64_t blockers = (ALPI_LPV_OPEN_ROWS + 2 * ALPI_LPV_NODE_TERMS) * nodes;
+    const uint64_t blockers = (3 * ALPI_LPV_AXIS_ROWS + 2 * ALPI_LPV_NODE_TERMS) * nodes;
     return o->cascades * sizeof(float) * (light + (o->blockers ? blockers : 0));
 }
 
@@ -134,7 +134,7 @@ static alp_result make_grid(alp_lpv *lpv, alpi_lpv_grid *g)
     ALPI_TRY_NEW(context, g->next, ALPI_LPV_ROWS * wide);
     if (lpv->options.blockers) {
         const size_t nodes = alpi_lpv_nodes(g->size);
-        ALPI_TRY_NEW(context, g->open, ALPI_LPV_OPEN_ROWS * nodes);
+        ALPI_TRY_NEW(context, g->faces, 3 * ALPI_LPV_AXIS_ROWS * nodes);
         ALPI_TRY_NEW(context, g->nodes, ALPI_LPV_NODE_TERMS * nodes);
         ALPI_TRY_NEW(context, g->view, ALPI_LPV_NODE_TERMS * nodes);
     }
@@ -187,7 +187,7 @@ void alp_lpv_destroy(alp_lpv *lpv)
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         const alpi_lpv_grid *g = &lpv->grids[c];
         float *const volumes[] = {g->injected, g->light, g->next, g->sum,
-                                  g->open,     g->nodes, g->view};
+                                  g->faces,    g->nodes, g->view};
         for (size_t i = 0; i < sizeof volumes / sizeof *volumes; i++) {
             alpi_release(lpv->context, volumes[i]);
         }
@@ -285,7 +285,7 @@ alp_result alp_lpv_propagate(alp_lpv *lpv)
     loop.step.wraps = lpv->wraps;
     keep_corners(lpv);
     if (o->blockers) {
-        ALP_TRY(run_loop(lpv, loops->open, (o->size[1] + 1) * (o->size[2] + 1), &loop));
+        ALP_TRY(run_loop(lpv, loops->faces, (o->size[1] + 1) * (o->size[2] + 1), &loop));
     }
     ALP_TRY(run_loop(lpv, loops->start, rows, &loop));
     for (uint32_t i = 0; i < lpv->iterations; i++) {

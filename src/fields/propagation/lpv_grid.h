@@ -29,11 +29,11 @@
 enum {
     ALPI_LPV_SIDE_MOST = 512,
     ALPI_LPV_CASCADES_MOST = 8,
-    ALPI_LPV_TERMS = 4,                 // p0, px, py, pz
-    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS, // of light in a cell, by channel
-    ALPI_LPV_DIRECTIONS = 6,            // of travel: +x, −x, +y, −y, +z, −z
-    ALPI_LPV_FACES = 5,                 // of a neighbour: the far one, four sides
-    ALPI_LPV_OPEN_ROWS = ALPI_LPV_DIRECTIONS * ALPI_LPV_FACES + 9,
+    ALPI_LPV_TERMS = 4,                       // p0, px, py, pz
+    ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS,       // of light in a cell, by channel
+    ALPI_LPV_DIRECTIONS = 6,                  // of travel: +x, −x, +y, −y, +z, −z
+    ALPI_LPV_FACES = 5,                       // of a neighbour: the far one, four sides
+    ALPI_LPV_AXIS_ROWS = ALPI_LPV_TERMS + 3,  // of faces across an axis: opacity, and albedo
     ALPI_LPV_NODE_TERMS = ALPI_LPV_TERMS + 3, // opacity, and albedo × opacity
 };
 
@@ -57,9 +57,9 @@ typedef struct alpi_lpv_grid {
     // [z][y][channel × 4 + term][x + 2], a cell more at both ends: what travels next. It is scaled
     // for the step, and p × the cosine `aside`.
     float *light, *next;
-    // [z + 1][y + 1][direction × 5 + face][x + 1] of low faces: shares of light that pass them by
-    // each direction; then [axis × 3 + channel] their albedo
-    float *open;
+    // [z + 1][y + 1][axis][AXIS_ROWS][x + 1] of low faces: their opacity as a number and three
+    // terms, along the axis and the two after it; then their albedo by channel
+    float *faces;
     // [z + 1][y + 1][x + 1][NODE_TERMS]: merged views, and the view that is being added
     float *nodes, *view;
     int64_t node_corner[3]; // `corner` when the nodes were filled
@@ -91,7 +91,7 @@ typedef struct alpi_lpv_step {
 typedef void alpi_lpv_rows_fn(const alpi_lpv_grid *grid, const alpi_lpv_step *step, uint32_t first,
                               uint32_t end);
 typedef struct alpi_lpv_loops {
-    alpi_lpv_rows_fn *open;  // nodes to `open`, (size[1] + 1)(size[2] + 1) rows
+    alpi_lpv_rows_fn *faces; // nodes to `faces`, (size[1] + 1)(size[2] + 1) rows
     alpi_lpv_rows_fn *start; // `injected` to `light`, and to `sum`
     alpi_lpv_rows_fn *step;  // light of neighbours to `next`, and into `sum`
 } alpi_lpv_loops;
