@@ -4,12 +4,10 @@
 #include "gl_program.h"
 #include "options/options.h"
 #include "shader_list.h"
-#include "shaders/lpv_bindings.h"
 
 #include <alpenglow/shared_constants.h>
 
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
 enum { TERMS = 12, CASCADE_STEPS = 8 };
 
@@ -23,15 +21,39 @@ static GLuint create_texture(const uint32_t size[3], uint32_t times)
     return texture;
 }
 
+static GLuint create_buffer(const uint32_t size[3], uint32_t terms)
+{
+    const size_t count = (size_t)size[0] * size[1] * size[2] * terms;
+    const GLint zero = 0;
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, (GLsizeiptr)(count * sizeof(GLint)), NULL, GL_DYNAMIC_STORAGE_BIT);
+    glClearNamedBufferData(buffer, GL_R32I, GL_RED_INTEGER, GL_INT, &zero);
+    return buffer;
+}
+
+static int create_programs(gl_lpv *v)
+{
+    static const gl_shader *const shaders[GL_LPV_PASSES] = {
+        [GL_LPV_LIGHT] = &shader_lpv_light_comp, [GL_LPV_BLOCKERS] = &shader_lpv_blockers_comp,
+        [GL_LPV_MERGE] = &shader_lpv_merge_comp, [GL_LPV_FACES] = &shader_lpv_faces_comp,
+        [GL_LPV_START] = &shader_lpv_start_comp, [GL_LPV_STEP] = &shader_lpv_step_comp};
+    for (int i = 0; i < GL_LPV_PASSES; i++) {
+        v->programs[i] = gl_program_create_compute(shaders[i]);
+        if (v->programs[i] == 0) {
+            return EXIT_FAILED;
+        }
+    }
+    return EXIT_DONE;
+}
+
 int gl_lpv_create(const alp_lpv_options *o, gl_lpv *v)
 {
     const uint32_t cells[3] = {o->size[0], o->size[1], o->size[2] * o->cascades};
     const uint32_t nodes[3] = {o->size[0] + 1, o->size[1] + 1, (o->size[2] + 1) * o->cascades};
     *v = (gl_lpv){.options = *o};
-    glCreateBuffers(1, &v->injected);
-    glNamedBufferStorage(v->injected,
-                         (GLsizeiptr)(sizeof(GLint) * TERMS * cells[0] * cells[1] * cells[2]), NULL,
-                         GL_DYNAMIC_STORAGE_BIT);
+    v->injected = create_buffer(cells, TERMS);
+    v->view = create_buffer(nodes, LPV_NODE_TERMS);
     v->opacities = create_texture(nodes, 1);
     v->albedos = create_texture(nodes, 1);
     v->faces = create_texture(nodes, 3);
@@ -39,10 +61,7 @@ int gl_lpv_create(const alp_lpv_options *o, gl_lpv *v)
     v->light[0] = create_texture(cells, 3);
     v->light[1] = create_texture(cells, 3);
     v->sum = create_texture(cells, 3);
-    v->start = gl_program_create_compute(&shader_lpv_start_comp);
-    v->face = gl_program_create_compute(&shader_lpv_faces_comp);
-    v->step = gl_program_create_compute(&shader_lpv_step_comp);
-    return v->start != 0 && v->face != 0 && v->step != 0 ? EXIT_DONE : EXIT_FAILED;
+    return create_programs(v);
 }
 
 void gl_lpv_destroy(gl_lpv *v)
@@ -53,20 +72,21 @@ void gl_lpv_destroy(gl_lpv *v)
     const GLuint textures[] = {v->opacities, v->albedos,  v->faces, v->colors,
                                v->light[0],  v->light[1], v->sum};
     glDeleteBuffers(1, &v->injected);
+    glDeleteBuffers(1, &v->view);
     glDeleteTextures(sizeof textures / sizeof *textures, textures);
-    glDeleteProgram(v->start);
-    glDeleteProgram(v->face);
-    glDeleteProgram(v->step);
+    for (int i = 0; i < GL_LPV_PASSES; i++) {
+        glDeleteProgram(v->programs[i]); // 0 does nothing
+    }
     *v = (gl_lpv){0};
 }
 
-/// Makes a program current, with what all passes know.
-static void use(const gl_lpv *v, GLuint program)
+/// Makes the program of a pass current, with what all passes know.
+static void use(const gl_lpv *v, int pass)
 {
     const uint32_t *size = v->options.size;
     const bool accurate = v->options.mode == ALP_LPV_ACCURATE;
     const float along = (float)ALP_LPV_ALONG, aside = (float)ALP_LPV_ASIDE;
-    glUseProgram(program);
+    glUseProgram(v->programs[pass]);
     glUniform3i(UNIFORM_LPV_SIZE, (GLint)size[0], (GLint)size[1], (GLint)size[2]);
     glUniform1i(UNIFORM_LPV_CASCADES, (GLint)v->options.cascades);
     glUniform3f(UNIFORM_LPV_READ, 1.0f, along, aside);
@@ -82,13 +102,86 @@ static void run(const gl_lpv *v, uint32_t more)
     glDispatchCompute((size[0] + more + LPV_GROUP_X - 1) / LPV_GROUP_X,
                       (size[1] + more + LPV_GROUP_Y - 1) / LPV_GROUP_Y,
                       (deep + LPV_GROUP_Z - 1) / LPV_GROUP_Z);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 static void bind_image(GLuint unit, GLuint texture, GLenum access)
 {
     glBindImageTexture(unit, texture, 0, GL_TRUE, 0, access, GL_RGBA32F);
 }
+
+// --- injection -----------------------------------------------------------------------------------
+
+void gl_lpv_follow(gl_lpv *v, const double eye[3], const double forward[3])
+{
+    for (uint32_t c = 0; c < v->options.cascades; c++) {
+        alp_lpv_placement place;
+        alp_lpv_place(&v->options, c, eye, forward, &place);
+        for (int k = 0; k < 3; k++) {
+            v->corners[c][k] = (float)place.corner[k];
+            v->centres[c][k] = (float)place.centre[k];
+        }
+    }
+}
+
+void gl_lpv_begin(gl_lpv *v, const float flux[3])
+{
+    const GLint zero = 0;
+    glClearNamedBufferData(v->injected, GL_R32I, GL_RED_INTEGER, GL_INT, &zero);
+    glClearTexImage(v->opacities, 0, GL_RGBA, GL_FLOAT, NULL);
+    glClearTexImage(v->albedos, 0, GL_RGBA, GL_FLOAT, NULL);
+    for (int k = 0; k < 3; k++) { // a term is at most flux / 2π
+        v->units[k] = fmaxf(flux[k], 1e-30f) / 6.2831853f / 0x1p30f;
+    }
+}
+
+static void use_map(const gl_lpv *v, int pass, const gl_lpv_map *map)
+{
+    use(v, pass);
+    glUniform1f(UNIFORM_LPV_CELL, (float)v->options.cell);
+    glUniform1i(UNIFORM_LPV_MAP, map->cascade);
+    glUniform3fv(UNIFORM_LPV_CORNERS, LPV_CASCADES_MOST, &v->corners[0][0]);
+    glUniform3fv(UNIFORM_LPV_CENTRES, LPV_CASCADES_MOST, &v->centres[0][0]);
+    glBindTextureUnit(0, map->positions);
+    glBindTextureUnit(1, map->normals);
+}
+
+static void run_map(const gl_lpv_map *map)
+{
+    glDispatchCompute((map->width + LPV_MAP_GROUP - 1) / LPV_MAP_GROUP,
+                      (map->height + LPV_MAP_GROUP - 1) / LPV_MAP_GROUP, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void gl_lpv_add_light(const gl_lpv *v, const gl_lpv_map *map)
+{
+    use_map(v, GL_LPV_LIGHT, map);
+    glUniform3fv(UNIFORM_LPV_UNITS, 1, v->units);
+    glBindTextureUnit(2, map->flux);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_INJECTED, v->injected);
+    run_map(map);
+}
+
+void gl_lpv_add_blockers(const gl_lpv *v, const gl_lpv_map *map, bool only)
+{
+    use_map(v, GL_LPV_BLOCKERS, map);
+    glUniform1i(UNIFORM_LPV_ONLY, only);
+    glBindTextureUnit(3, map->albedos);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_VIEW, v->view);
+    run_map(map);
+}
+
+void gl_lpv_end_view(const gl_lpv *v)
+{
+    use(v, GL_LPV_MERGE);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_VIEW, v->view);
+    bind_image(0, v->opacities, GL_READ_WRITE);
+    bind_image(1, v->albedos, GL_READ_WRITE);
+    run(v, 1);
+}
+
+// --- propagation ---------------------------------------------------------------------------------
 
 static uint32_t count_steps(const alp_lpv_options *o)
 {
@@ -101,20 +194,20 @@ void gl_lpv_propagate(gl_lpv *v)
 {
     const uint32_t steps = count_steps(&v->options);
     if (v->options.blockers) {
-        use(v, v->face);
+        use(v, GL_LPV_FACES);
         glBindTextureUnit(0, v->opacities);
         glBindTextureUnit(1, v->albedos);
         bind_image(0, v->faces, GL_WRITE_ONLY);
         bind_image(1, v->colors, GL_WRITE_ONLY);
         run(v, 1);
     }
-    use(v, v->start);
+    use(v, GL_LPV_START);
     glUniform3fv(UNIFORM_LPV_UNITS, 1, v->units);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_INJECTED, v->injected);
     bind_image(0, v->light[0], GL_WRITE_ONLY);
     bind_image(1, v->sum, GL_WRITE_ONLY);
     run(v, 0);
-    use(v, v->step);
+    use(v, GL_LPV_STEP);
     glBindTextureUnit(1, v->faces);
     glBindTextureUnit(2, v->colors);
     bind_image(1, v->sum, GL_READ_WRITE);

@@ -84,6 +84,18 @@ ALP_API alp_lpv_options alp_lpv_options_for_scene(const alp_scene *scene, uint32
 ALP_API ALP_NODISCARD alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3],
                                                 const double forward[3]);
 
+/// Where a grid lies, for hosts that run a volume on a graphics card.
+typedef struct alp_lpv_placement {
+    double cell;       ///< metres
+    int64_t corner[3]; ///< of cell 0, 0, 0, in cells from the origin
+    double centre[3];  ///< metres, before rounding to whole cells: grids fade about it
+} alp_lpv_placement;
+/// Places a grid as alp_lpv_follow does.
+/// @param options of a volume   @param cascade 0 the finest   @param eye metres
+/// @param forward unit, or 0: the grid is centred at the eye   @param placement out
+ALP_API void alp_lpv_place(const alp_lpv_options *options, uint32_t cascade, const double eye[3],
+                           const double forward[3], alp_lpv_placement *placement);
+
 /// Takes all light and blockers out. The light of the last propagation stays until the next.
 ALP_API void alp_lpv_begin(alp_lpv *lpv);
 /// The same, but the blockers of the last frame stay and count as one view more.

@@ -38,6 +38,19 @@
 #define ALP_LPV_GAIN 1.5
 // Two bands block less than a covered cell does: .75 head-on. Opacity is multiplied by this.
 #define ALP_LPV_OPACITY 1.6
+// A virtual light lies half a cell above its surface. Surfaces often lie between two cells, and
+// there rounding would choose: a thousandth more makes the choice.
+#define ALP_LPV_ABOVE 0.5
+#define ALP_LPV_BEYOND 0.001
+// A surface is read half a cell above it, for its own cell's half may lie in the wall.
+#define ALP_LPV_LIFT 0.5
+// Share of half a grid by which its centre lies ahead of the eye.
+#define ALP_LPV_AHEAD 0.5
+// Shares of half a grid over which it gives way to the next one, of light that is injected and
+// read. A finer grid lacks the light from beyond it, and a slow change while the eye moves is not
+// seen.
+#define ALP_LPV_INJECTION_BORDER 0.15
+#define ALP_LPV_READING_BORDER 0.8
 
 // Diffuse albedo: its limit, so that light in closed rooms dies out, and that of a surface without
 // a material.

@@ -6,9 +6,16 @@
 #define LPV_GROUP_X 8
 #define LPV_GROUP_Y 4
 #define LPV_GROUP_Z 2
+#define LPV_MAP_GROUP 8
+
+#define LPV_CASCADES_MOST 8
+#define LPV_NODE_TERMS 7              // four of opacity, albedo x opacity
+#define LPV_OPACITY_UNIT 9.5367432e-7 // 2^-20
+#define LPV_OPACITY_MOST 128.0        // of a surfel
 
 // Storage buffers.
 #define BUFFER_LPV_INJECTED 8 // int [cascade][z][y][x][channel][term], in units
+#define BUFFER_LPV_VIEW 9     // int [cascade][z][y][x][LPV_NODE_TERMS] of nodes, in units
 
 // Uniforms of all passes: lpv_grid.glsl.
 #define UNIFORM_LPV_SIZE 16     // ivec3, cells of a grid
@@ -21,5 +28,11 @@
 #define UNIFORM_LPV_UNITS 22    // vec3, of the channels, W/sr
 #define UNIFORM_LPV_BLOCKED 23  // bool, whether blockers stop light
 #define UNIFORM_LPV_REFLECTS 24 // bool, whether they reflect it
+#define UNIFORM_LPV_ONLY 25     // bool, whether a map is for its own grid alone
+// Of passes that know where the grids are: lpv_places.glsl.
+#define UNIFORM_LPV_CELL 26    // float, metres of the finest cell
+#define UNIFORM_LPV_MAP 27     // int, the cascade of the map; -1: of all
+#define UNIFORM_LPV_CORNERS 28 // vec3 [LPV_CASCADES_MOST], cells from the origin
+#define UNIFORM_LPV_CENTRES 36 // vec3 [LPV_CASCADES_MOST], metres, before they are rounded
 
 #endif

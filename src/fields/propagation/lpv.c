@@ -13,8 +13,6 @@ enum { ITERATIONS_MOST = 4096, CASCADE_ITERATIONS = 8 };
 /// Cells from the origin that a grid may lie at: a double holds a thousandth of one there.
 static const double FARTHEST = 1099511627776.0;
 static const double CELL_LEAST = 1e-6, CELL_MOST = 1e12; // metres
-/// Share of half a grid by which its centre lies ahead of the eye.
-static const double AHEAD = 0.5;
 /// Mean of the direction over the far face, and over a side face along the way and aside: the
 /// integrals of direction over solid angle, divided by it.
 static const float MEAN_FAR = 0.966914f, MEAN_ALONG = 0.799082f, MEAN_ASIDE = 0.518084f;
@@ -199,13 +197,23 @@ void alp_lpv_destroy(alp_lpv *lpv)
 
 // --- where the grids are -------------------------------------------------------------------------
 
+void alp_lpv_place(const alp_lpv_options *o, uint32_t cascade, const double eye[3],
+                   const double forward[3], alp_lpv_placement *place)
+{
+    place->cell = ldexp(o->cell, (int)cascade);
+    for (int k = 0; k < 3; k++) {
+        const double half = 0.5 * place->cell * (double)o->size[k];
+        place->centre[k] = eye[k] + ALP_LPV_AHEAD * half * forward[k];
+        place->corner[k] =
+            (int64_t)floor(place->centre[k] / place->cell - 0.5 * (double)o->size[k] + 0.5);
+    }
+}
+
 void alpi_lpv_ideal_centre(const alp_lpv *lpv, uint32_t cascade, double centre[3])
 {
-    const alpi_lpv_grid *g = &lpv->grids[cascade];
-    for (int k = 0; k < 3; k++) {
-        const double half = 0.5 * g->cell * (double)g->size[k];
-        centre[k] = lpv->eye[k] + AHEAD * half * lpv->forward[k];
-    }
+    alp_lpv_placement place;
+    alp_lpv_place(&lpv->options, cascade, lpv->eye, lpv->forward, &place);
+    memcpy(centre, place.centre, sizeof place.centre);
 }
 
 alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3], const double forward[3])
@@ -232,12 +240,9 @@ alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3], const double forwar
         lpv->forward[k] = most > 0.0 ? forward[k] / most / sqrt(squares) : 0.0;
     }
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
-        alpi_lpv_grid *g = &lpv->grids[c];
-        double centre[3];
-        alpi_lpv_ideal_centre(lpv, c, centre);
-        for (int k = 0; k < 3; k++) {
-            g->corner[k] = (int64_t)floor(centre[k] / g->cell - 0.5 * (double)g->size[k] + 0.5);
-        }
+        alp_lpv_placement place;
+        alp_lpv_place(&lpv->options, c, lpv->eye, lpv->forward, &place);
+        memcpy(lpv->grids[c].corner, place.corner, sizeof place.corner);
     }
     return ALP_OK;
 }

@@ -7,12 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/// A surface is read this many cells above it: beyond its own cell's half, which may lie in the
-/// wall.
-static const double LIFT = 0.5;
-/// Share of half a grid in which it gives way to the next one. A finer grid lacks the light from
-/// beyond it, and a slow change while the eye moves is not seen.
-static const double BORDER = 0.8;
 enum { GLOSS_STEPS = 4 };
 
 /// Sum of intensities at a point, divided by 1.5 s²: radiance L(ω) = p0 + p·ω of light that
@@ -140,9 +134,9 @@ static void damp(const alp_lpv *lpv, const alpi_lpv_grid *g, const float positio
     if (lpv->options.mode == ALP_LPV_ACCURATE) {
         return;
     }
-    move_along(position, n, (LIFT - 0.5) * g->cell, p);
+    move_along(position, n, (ALP_LPV_LIFT - 0.5) * g->cell, p);
     add_terms(g, p, 1.0f, low);
-    move_along(position, n, (LIFT + 0.5) * g->cell, p);
+    move_along(position, n, (ALP_LPV_LIFT + 0.5) * g->cell, p);
     add_terms(g, p, 1.0f, high);
     for (int k = 0; k < 3; k++) {
         shares[k] = find_damping(here[k], low[k], high[k]);
@@ -153,7 +147,7 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
                        const float (*normals)[3], float (*out)[3])
 {
     const alp_lpv *lpv = ((const lpv_field *)field)->lpv;
-    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, ALP_LPV_READING_BORDER);
     for (uint32_t i = 0; i < count; i++) {
         const float *n = normals[i];
         grid_place places[ALPI_LPV_CASCADES_MOST];
@@ -164,7 +158,7 @@ static void irradiance(const alp_field *field, uint32_t count, const float (*pos
         for (uint32_t g = 0; g < grids; g++) {
             light_terms here = {{0}};
             float shares[3];
-            move_along(positions[i], n, LIFT * places[g].grid->cell, p);
+            move_along(positions[i], n, ALP_LPV_LIFT * places[g].grid->cell, p);
             add_terms(places[g].grid, p, 1.0f, here);
             damp(lpv, places[g].grid, positions[i], n, here, shares);
             for (int k = 0; k < 3; k++) {
@@ -205,7 +199,7 @@ alp_result alp_field_create_lpv(const alp_lpv *lpv, alp_field **field)
 void alp_lpv_radiance(const alp_lpv *lpv, uint32_t count, const float (*positions)[3],
                       const float (*directions)[3], float (*radiance)[3])
 {
-    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, ALP_LPV_READING_BORDER);
     for (uint32_t i = 0; i < count; i++) {
         const float *d = directions[i];
         float sum[3] = {0.0f, 0.0f, 0.0f}, weights = 0.0f;
@@ -237,7 +231,7 @@ void alp_lpv_radiance(const alp_lpv *lpv, uint32_t count, const float (*position
 void alp_lpv_fluence(const alp_lpv *lpv, uint32_t count, const float (*positions)[3],
                      float (*fluence)[3])
 {
-    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, BORDER);
+    const alpi_lpv_fades fades = alpi_lpv_find_fades(lpv, ALP_LPV_READING_BORDER);
     const float sphere = 4.0f * (float)ALPI_PI, nowhere[3] = {0.0f, 0.0f, 0.0f};
     for (uint32_t i = 0; i < count; i++) {
         light_terms t;

@@ -10,11 +10,6 @@
 #include <string.h>
 
 enum { GRAIN = 4096 };
-/// A virtual light lies half a cell above its surface. Surfaces often lie between two cells, and
-/// there rounding would choose: a thousandth more makes the choice.
-static const double ABOVE = 0.5, BEYOND = 0.001;
-/// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
-static const double BORDER = 0.15;
 
 // --- what is usable ------------------------------------------------------------------------------
 
@@ -92,7 +87,8 @@ static bool find_along(const alpi_lpv_injection *in, uint32_t i, uint32_t axis,
     const double position = (double)in->surfels->positions[i][axis] / in->grid->cell;
     const double corner = (double)in->grid->corner[axis], last = (double)in->ends[axis] - 1.0;
     // Nodes lie at corners of cells, virtual lights half a cell above their surfaces.
-    const double at = position + (in->blockers ? BEYOND * n : (ABOVE + BEYOND) * n - 0.5);
+    const double at =
+        position + (in->blockers ? ALP_LPV_BEYOND * n : (ALP_LPV_ABOVE + ALP_LPV_BEYOND) * n - 0.5);
     const double reach = in->blockers ? 1.0 : 0.5; // beyond the first and the last
     if (!(at - corner >= -reach && at - corner < last + reach)) {
         return false;
@@ -179,7 +175,7 @@ alp_result alpi_lpv_begin_places(alpi_lpv_injection *in)
         ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->order, &lpv->order_limit, count,
                           sizeof *lpv->order));
     }
-    in->fades = alpi_lpv_find_fades(lpv, BORDER);
+    in->fades = alpi_lpv_find_fades(lpv, ALP_LPV_INJECTION_BORDER);
     ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_usable, in, NULL));
     for (uint32_t i = 0; i < count; i++) {
         lpv->skipped += !lpv->places[i].usable;

@@ -18,36 +18,47 @@ TEST_CONTEXT(2);
 enum { ROWS = ALPI_LPV_ROWS };
 static const double UNITS = 0x1p30; // of the largest value
 
-/// A room's worth of random surfels, which shine and block.
-static void fill(alp_lpv *lpv, const alp_lpv_options *o)
+enum { WIDE = 30, HIGH = 20, COUNT = WIDE * HIGH };
+static struct {
+    float positions[COUNT][3], normals[COUNT][3], flux[COUNT][3], albedo[COUNT][3], areas[COUNT],
+        radii[COUNT];
+} map;
+
+/// Random surfels in the finest grid or beyond it, some of which shine.
+/// @param reach half the side of their box, in halves of the grid
+static alp_lpv_surfels make_map(const alp_lpv_options *o, float reach, uint32_t seed)
 {
-    enum { COUNT = 600 };
-    static float positions[COUNT][3], normals[COUNT][3], flux[COUNT][3], albedo[COUNT][3],
-        areas[COUNT];
-    uint32_t state = 7;
+    uint32_t state = seed;
     for (int i = 0; i < COUNT; i++) {
         vec3 n;
-        float u[9];
-        for (int k = 0; k < 9; k++) {
+        float u[10];
+        for (int k = 0; k < 10; k++) {
             state = alpi_hash32(state + 0x9e3779b9u);
             u[k] = alpi_unit_float(state);
         }
         n = vec3_normalize_or((vec3){u[0] - 0.5f, u[1] - 0.5f, u[2] - 0.5f}, (vec3){0, 1, 0});
-        vec3_store(normals[i], n);
+        vec3_store(map.normals[i], n);
         for (int k = 0; k < 3; k++) {
             const float half = 0.5f * (float)(o->cell * o->size[k]);
-            positions[i][k] = half * (2.0f * u[3 + k] - 1.0f);
-            flux[i][k] = i < 40 ? u[6 + k] : 0.0f;
-            albedo[i][k] = u[8 - k];
+            map.positions[i][k] = reach * half * (2.0f * u[3 + k] - 1.0f);
+            map.flux[i][k] = i % 15 == 0 ? u[6 + k] : 0.0f;
+            map.albedo[i][k] = u[8 - k];
         }
-        areas[i] = (float)(o->cell * o->cell) * u[8];
+        map.areas[i] = (float)(o->cell * o->cell) * u[8];
+        map.radii[i] = u[9] < 0.5f ? 0.0f : (float)o->cell * 2.0f * u[9];
     }
-    const alp_lpv_surfels s = {.count = COUNT,
-                               .positions = (const float(*)[3])positions,
-                               .normals = (const float(*)[3])normals,
-                               .flux = (const float(*)[3])flux,
-                               .areas = areas,
-                               .albedo = (const float(*)[3])albedo};
+    return (alp_lpv_surfels){.count = COUNT,
+                             .positions = (const float(*)[3])map.positions,
+                             .normals = (const float(*)[3])map.normals,
+                             .flux = (const float(*)[3])map.flux,
+                             .areas = map.areas,
+                             .albedo = (const float(*)[3])map.albedo,
+                             .radii = map.radii};
+}
+
+static void fill(alp_lpv *lpv, const alp_lpv_options *o)
+{
+    const alp_lpv_surfels s = make_map(o, 1.0f, 7);
     alp_lpv_begin(lpv);
     ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
     if (o->blockers) {
@@ -136,6 +147,125 @@ static double compare_sums(const alp_lpv *lpv, const gl_lpv *v)
     }
     free(sum);
     return worst;
+}
+
+// --- injection -----------------------------------------------------------------------------------
+
+static GLuint upload(const float (*values)[3], const float *fourth)
+{
+    static float texels[COUNT][4];
+    GLuint texture = 0;
+    for (int i = 0; i < COUNT; i++) {
+        memcpy(texels[i], values[i], sizeof values[i]);
+        texels[i][3] = fourth != NULL ? fourth[i] : 0.0f;
+    }
+    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
+    glTextureStorage2D(texture, 1, GL_RGBA32F, WIDE, HIGH);
+    glTextureSubImage2D(texture, 0, 0, 0, WIDE, HIGH, GL_RGBA, GL_FLOAT, texels);
+    return texture;
+}
+
+static gl_lpv_map upload_map(int cascade)
+{
+    return (gl_lpv_map){.positions = upload((const float(*)[3])map.positions, map.radii),
+                        .normals = upload((const float(*)[3])map.normals, map.areas),
+                        .flux = upload((const float(*)[3])map.flux, NULL),
+                        .albedos = upload((const float(*)[3])map.albedo, NULL),
+                        .width = WIDE,
+                        .height = HIGH,
+                        .cascade = cascade};
+}
+
+static void destroy_map(const gl_lpv_map *m)
+{
+    const GLuint textures[4] = {m->positions, m->normals, m->flux, m->albedos};
+    glDeleteTextures(4, textures);
+}
+
+/// Largest difference of what was injected, over the largest term.
+static double compare_light(const alp_lpv *lpv, const gl_lpv *v)
+{
+    const uint32_t *n = v->options.size;
+    const size_t cells = alpi_lpv_cells(n), count = v->options.cascades * cells * ROWS;
+    GLint *whole = malloc(count * sizeof *whole);
+    double most = 0.0, apart = 0.0;
+    assert_non_null(whole);
+    glGetNamedBufferSubData(v->injected, 0, (GLsizeiptr)(count * sizeof *whole), whole);
+    for (size_t i = 0; i < count; i++) {
+        const size_t row = i / ROWS % cells / n[0], x = i / ROWS % n[0];
+        const float *rows = lpv->grids[i / (cells * ROWS)].injected + row * ROWS * n[0];
+        const double own = (double)rows[i % ROWS * n[0] + x];
+        most = fmax(most, fabs(own));
+        apart = fmax(apart, fabs(own - (double)v->units[i % ROWS / 4] * whole[i]));
+    }
+    free(whole);
+    assert_true(most > 0.0);
+    return apart / most;
+}
+
+/// The same of opacity and albedo × opacity of the nodes.
+static double compare_blockers(const alp_lpv *lpv, const gl_lpv *v)
+{
+    const size_t nodes = alpi_lpv_nodes(v->options.size);
+    const size_t bytes = v->options.cascades * nodes * 4 * sizeof(float);
+    float(*terms[2])[4] = {malloc(bytes), malloc(bytes)};
+    double most = 0.0, apart = 0.0;
+    assert_true(terms[0] != NULL && terms[1] != NULL);
+    glGetTextureImage(v->opacities, 0, GL_RGBA, GL_FLOAT, (GLsizei)bytes, terms[0]);
+    glGetTextureImage(v->albedos, 0, GL_RGBA, GL_FLOAT, (GLsizei)bytes, terms[1]);
+    for (uint32_t c = 0; c < v->options.cascades; c++) {
+        for (size_t i = 0; i < nodes * ALPI_LPV_NODE_TERMS; i++) {
+            const size_t node = i / ALPI_LPV_NODE_TERMS, t = i % ALPI_LPV_NODE_TERMS;
+            const double own = (double)lpv->grids[c].nodes[i];
+            most = fmax(most, fabs(own));
+            apart = fmax(apart, fabs(own - (double)terms[t / 4][c * nodes + node][t % 4]));
+        }
+    }
+    free(terms[0]);
+    free(terms[1]);
+    assert_true(most > 0.0);
+    return apart / most;
+}
+
+/// Maps of cascades and of all, views of one grid and of all, and grids that have moved.
+TEST(maps_are_injected_as_in_the_library)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    const double eye[3] = {0.73, -1.3, 2.1}, ahead[3] = {0.6, 0.0, -0.8};
+    for (int i = 0; i < 12; i++) {
+        alp_lpv_options o = alp_lpv_options_default();
+        o.size[0] = 12, o.size[1] = 9, o.size[2] = 10;
+        o.mode = i % 2 == 0 ? ALP_LPV_ACCURATE : ALP_LPV_CONFORMANCE;
+        o.cascades = i % 4 < 2 ? 3 : 1;
+        alp_lpv *lpv = NULL;
+        gl_lpv volume;
+        ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
+        assert_int_equal(gl_lpv_create(&o, &volume), EXIT_DONE);
+        ASSERT_OK(context, alp_lpv_follow(lpv, eye, ahead));
+        gl_lpv_follow(&volume, eye, ahead);
+        alp_lpv_begin(lpv);
+        gl_lpv_begin(&volume, (const float[3]){2 * COUNT, 2 * COUNT, 2 * COUNT});
+        for (uint32_t k = 0; k < 2; k++) { // two maps, each of which is a view
+            const uint32_t cascade = k == 0 ? ALP_LPV_ALL_CASCADES : o.cascades - 1;
+            const alp_lpv_surfels s = make_map(&o, (float)(1 + i % 3), 7 + k);
+            const gl_lpv_map m = upload_map(k == 0 ? -1 : (int)cascade);
+            ASSERT_OK(context, alp_lpv_add_light(lpv, cascade, &s));
+            ASSERT_OK(context, alp_lpv_add_blockers(lpv, cascade, &s));
+            gl_lpv_add_light(&volume, &m);
+            gl_lpv_add_blockers(&volume, &m, k == 1);
+            gl_lpv_end_view(&volume);
+            destroy_map(&m);
+        }
+        const double light = compare_light(lpv, &volume), blocked = compare_blockers(lpv, &volume);
+        print_message("%2d: light apart by %.2g, blockers by %.2g\n", i, light, blocked);
+        ASSERT_NEAR(light, 0.0, 1e-5);
+        ASSERT_NEAR(blocked, 0.0, 1e-5);
+        gl_lpv_destroy(&volume);
+        alp_lpv_destroy(lpv);
+        test_gl_check();
+    }
 }
 
 TEST(light_propagates_as_in_the_library)
