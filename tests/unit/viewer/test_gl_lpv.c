@@ -261,7 +261,7 @@ TEST(maps_are_injected_as_in_the_library)
         const double light = compare_light(lpv, &volume), blocked = compare_blockers(lpv, &volume);
         print_message("%2d: light apart by %.2g, blockers by %.2g\n", i, light, blocked);
         ASSERT_NEAR(light, 0.0, 1e-5);
-        ASSERT_NEAR(blocked, 0.0, 1e-5);
+        ASSERT_NEAR(blocked, 0.0, 3e-5); // opacity is held in units
         gl_lpv_destroy(&volume);
         alp_lpv_destroy(lpv);
         test_gl_check();
