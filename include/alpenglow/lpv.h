@@ -185,6 +185,24 @@ ALP_API ALP_NODISCARD alp_result alp_lpv_light_scene(alp_lpv *lpv, const alp_sce
                                                      const alp_lpv_scene_options *options,
                                                      alp_lpv_report *report);
 
+/// Surfels of a scene that stay while lamps move, for hosts that run a volume on a graphics card.
+typedef struct alp_lpv_collection alp_lpv_collection; ///< opaque
+typedef enum alp_lpv_source {
+    /// Half of the surfels are points of emissive surfaces, with the flux that they emit. The other
+    /// half are what this light meets first, with the flux that is reflected there.
+    ALP_LPV_EMITTERS = 0,
+    ALP_LPV_POINTS ///< points of all surfaces, spread by area; they block
+} alp_lpv_source;
+/// Collects surfels, as alp_lpv_light_scene does in each frame.
+/// @param count [2, 16777216]; without emissive surfaces EMITTERS has none
+/// @return ALP_OK; INVALID_ARGUMENT (count); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+ALP_API ALP_NODISCARD alp_result alp_lpv_collect(const alp_scene *scene, alp_lpv_source source,
+                                                 uint32_t count, uint64_t seed,
+                                                 alp_lpv_collection **collection);
+ALP_API void alp_lpv_collection_destroy(alp_lpv_collection *collection); ///< NULL does nothing
+/// Its arrays belong to the collection. Elements without a hit have neither flux nor area.
+ALP_API alp_lpv_surfels alp_lpv_collection_surfels(const alp_lpv_collection *collection);
+
 /// A grid and its sums, for pictures and tests.
 typedef struct alp_lpv_grid {
     uint32_t size[3];

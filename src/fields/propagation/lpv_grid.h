@@ -29,6 +29,7 @@
 enum {
     ALPI_LPV_SIDE_MOST = 512,
     ALPI_LPV_CASCADES_MOST = 8,
+    ALPI_LPV_POINTS_MOST = 1 << 24,           // that block
     ALPI_LPV_TERMS = 4,                       // p0, px, py, pz
     ALPI_LPV_ROWS = 3 * ALPI_LPV_TERMS,       // of light in a cell, by channel
     ALPI_LPV_DIRECTIONS = 6,                  // of travel: +x, −x, +y, −y, +z, −z

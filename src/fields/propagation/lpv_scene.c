@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAP_LEAST = 4, MAP_MOST = 4096, POINTS_MOST = 1 << 24 };
+enum { MAP_LEAST = 4, MAP_MOST = 4096 };
 enum { CAMERA_MAP = 256, CUBE_FACES = 6 };
 
 alp_lpv_scene_options alp_lpv_scene_options_default(void)
@@ -211,9 +211,9 @@ static alp_result check_options(alp_context *context, const alp_lpv_scene_option
         return alpi_fail(context, code, "lpv: maps of %u texels along a side, need %d to %d",
                          o->map_size, MAP_LEAST, MAP_MOST);
     }
-    if (o->points > POINTS_MOST) {
+    if (o->points > ALPI_LPV_POINTS_MOST) {
         return alpi_fail(context, code, "lpv: %u points that block, need at most %d", o->points,
-                         POINTS_MOST);
+                         ALPI_LPV_POINTS_MOST);
     }
     return ALP_OK;
 }

@@ -540,3 +540,39 @@ TEST(workers_change_no_bit_of_light)
         free(bits);
     }
 }
+
+// --- surfels for hosts ---------------------------------------------------------------------------
+
+/// A host that collects surfels and injects them has the light of alp_lpv_light_scene.
+TEST(collected_surfels_light_a_volume)
+{
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    const alp_lpv_options o = alp_lpv_options_for_scene(scene, 12, 1);
+    alp_lpv_scene_options frame = alp_lpv_scene_options_default();
+    frame.map_size = 32;
+    frame.points = 1000;
+    alp_lpv *one = NULL, *other = NULL;
+    alp_lpv_collection *emitters = NULL, *points = NULL;
+    ASSERT_OK(context, alp_lpv_create(context, &o, &one));
+    ASSERT_OK(context, alp_lpv_create(context, &o, &other));
+    ASSERT_OK(context, alp_lpv_light_scene(one, scene, &frame, NULL));
+    ASSERT_OK(context, alp_lpv_collect(scene, ALP_LPV_EMITTERS, 2 * 32 * 32, 0, &emitters));
+    ASSERT_OK(context, alp_lpv_collect(scene, ALP_LPV_POINTS, 1000, 0, &points));
+    const alp_lpv_surfels light = alp_lpv_collection_surfels(emitters);
+    const alp_lpv_surfels blockers = alp_lpv_collection_surfels(points);
+    alp_lpv_begin(other);
+    ASSERT_OK(context, alp_lpv_add_light(other, ALP_LPV_ALL_CASCADES, &light));
+    ASSERT_OK(context, alp_lpv_add_blockers(other, ALP_LPV_ALL_CASCADES, &blockers));
+    ASSERT_OK(context, alp_lpv_propagate(other));
+    assert_memory_equal(one->grids[0].sum, other->grids[0].sum,
+                        ALPI_LPV_ROWS * alpi_lpv_cells(o.size) * sizeof(float));
+    alp_lpv_collection_destroy(points);
+    alp_lpv_collection_destroy(emitters);
+    alp_lpv_collection_destroy(NULL);
+    alp_lpv_destroy(other);
+    alp_lpv_destroy(one);
+    assert_int_equal(alp_lpv_collect(scene, ALP_LPV_POINTS, 1, 0, &points),
+                     ALP_ERROR_INVALID_ARGUMENT);
+    assert_non_null(strstr(alp_context_message(context), "1 surfels"));
+    alp_scene_destroy(scene);
+}
