@@ -1,36 +1,18 @@
 // A map of surfels, and where they go in the grids: as lpv_places.c of the library.
-#include "lpv_grid.glsl"
+#include "lpv_cascades.glsl"
 
 layout(binding = 0) uniform sampler2D map_positions; // metres; a: radius of the object, 0 any
 layout(binding = 1) uniform sampler2D map_normals;   // unit; a: area, 0 where there is no surfel
 layout(binding = 2) uniform sampler2D map_flux;      // W
 layout(binding = 3) uniform sampler2D map_albedos;
 
-layout(location = UNIFORM_LPV_CELL) uniform float finest_cell; // metres
-layout(location = UNIFORM_LPV_MAP) uniform int map_cascade;    // whose map it is, -1: of all
-layout(location = UNIFORM_LPV_CORNERS) uniform vec3 corners[LPV_CASCADES_MOST]; // cells
-layout(location = UNIFORM_LPV_CENTRES) uniform vec3 centres[LPV_CASCADES_MOST]; // metres
+layout(location = UNIFORM_LPV_MAP) uniform int map_cascade; // whose map it is, -1: of all
 
 /// A place among the eight cells, or nodes, from `low` on.
 struct place {
     ivec3 low;
     vec3 part; // of the upper ones
 };
-
-float cell_of(int cascade)
-{
-    return finest_cell * float(1 << cascade);
-}
-
-/// Share that a grid keeps at a point: 1 inside, and 0 a cell before its border.
-/// @param border share of half a grid over which it fades
-float share_of(int cascade, vec3 position, float border)
-{
-    vec3 half_size = 0.5 * vec3(grid_size) - 1.0;
-    vec3 away = abs(position - centres[cascade]) / cell_of(cascade);
-    vec3 share = (half_size - away) / (border * max(half_size, 0.5));
-    return clamp(min(share.x, min(share.y, share.z)), 0.0, 1.0);
-}
 
 /// Share that the coarsest of several grids takes: its last cell fades.
 float last_share(vec3 position)
