@@ -6,7 +6,8 @@
 
 int pass_shadows_create(pass_shadows *pass)
 {
-    *pass = (pass_shadows){.program = gl_program_create(&shader_surfaces_vert, &shader_shadow_frag)};
+    *pass =
+        (pass_shadows){.program = gl_program_create(&shader_surfaces_vert, &shader_shadow_frag)};
     glCreateFramebuffers(1, &pass->frame);
     glNamedFramebufferDrawBuffer(pass->frame, GL_NONE);
     return pass->program != 0 ? EXIT_DONE : EXIT_FAILED;

@@ -35,12 +35,12 @@
 #define TEXTURE_LAMP_SHADOWS 15
 
 // Uniforms of all passes that know the camera.
-#define UNIFORM_ORIGIN 0  // vec3, metres
-#define UNIFORM_FORWARD 1 // vec3, unit
-#define UNIFORM_RIGHT 2   // vec3: x of the picture at distance 1, from -1 to 1, times this
-#define UNIFORM_UP 3      // vec3: the same of y
-#define UNIFORM_NEAR 4    // float, metres; of a parallel view 1 / the far plane
-#define UNIFORM_SIZE 5    // vec2, pixels
+#define UNIFORM_ORIGIN 0   // vec3, metres
+#define UNIFORM_FORWARD 1  // vec3, unit
+#define UNIFORM_RIGHT 2    // vec3: x of the picture at distance 1, from -1 to 1, times this
+#define UNIFORM_UP 3       // vec3: the same of y
+#define UNIFORM_NEAR 4     // float, metres; of a parallel view 1 / the far plane
+#define UNIFORM_SIZE 5     // vec2, pixels
 #define UNIFORM_PARALLEL 6 // bool, whether rays are parallel
 // Of pass_surfaces.
 #define UNIFORM_MATERIAL 8   // uint
