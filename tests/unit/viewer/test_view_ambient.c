@@ -6,7 +6,7 @@ static void check(const alp_scene *scene, const alp_render_options *o, const cha
 {
     test_pair pair = test_gl_pair(scene, o);
     const double equal = test_pair_equal_share(&pair);
-    if (!(pair.alike_share >= 0.8 && equal >= 0.97)) {
+    if (!(pair.alike_share >= 0.8 && equal >= 0.99)) {
         fail_msg("%s: %.4f of the pixels are alike, and %.4f of these equal", name,
                  pair.alike_share, equal);
     }

@@ -5,13 +5,15 @@
 
 #include "base/memory.h"
 #include "fields/field.h"
+#include "options/options.h"
 #include "scene/scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-// Shares of pixels: see test_view_pictures.c. Edges of shadows are left out too.
-static const double EQUAL = 0.97, ALIKE = 0.7;
+// The share of pixels within a byte, of those that are alike; and of these of all.
+static const double EQUAL = 0.99, ALIKE = 0.7;
 
 static void irradiance_of_darkness(const alp_field *field, uint32_t count,
                                    const float (*positions)[3], const float (*normals)[3],
@@ -103,6 +105,47 @@ TEST_WITH_CONTEXT(spot_lights_are_those_of_render, 2)
     o.lighting.lamps = lamps;
     o.lighting.lamp_count = 2;
     check(scene, &o, 0.5);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(lamps_outside_are_those_of_render, 2)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_scene *scene = test_load(context, "builtin:atrium,triangles=20000");
+    alp_render_options o = small_picture();
+    alp_lamp lamps[2] = {lamp_at(6.0f, 70.0f, 3.0f, 1e5f), lamp_at(-2e3f, 4e3f, 1e3f, 1e9f)};
+    lamps[1].kind = ALP_LIGHT_SPOT;
+    memcpy(lamps[1].direction, (const float[3]){2, -4, -1}, sizeof lamps[1].direction);
+    lamps[1].outer_cone = 0.9f;
+    o.lighting.lamps = lamps;
+    o.lighting.lamp_count = 2;
+    check(scene, &o, 0.1);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(too_many_lamps_are_refused, 1)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    GLint layers = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    alp_lighting_options lighting = alp_lighting_options_default();
+    gl_lights lights;
+    lighting.lamp_count = (uint32_t)layers / 6 + 1;
+    alp_lamp *lamps = calloc(lighting.lamp_count, sizeof *lamps);
+    assert_non_null(lamps);
+    for (uint32_t i = 0; i < lighting.lamp_count; i++) {
+        lamps[i] = lamp_at(0.1f, 0.2f, 0.3f, 1.0f);
+    }
+    lighting.lamps = lamps;
+    assert_int_equal(gl_lights_create(scene, &lighting, &lights), EXIT_FAILED);
+    gl_lights_destroy(&lights);
+    test_gl_check();
+    free(lamps);
     alp_scene_destroy(scene);
 }
 
