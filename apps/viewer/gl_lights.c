@@ -253,12 +253,13 @@ int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lightin
     if (made) {
         load_lights(&info, &list, sides, d);
     }
-    free(list.lights);
+    d->infos = list.lights;
     return made ? EXIT_DONE : EXIT_FAILED;
 }
 
 void gl_lights_destroy(gl_lights *d)
 {
+    free(d->infos);
     if (d->sun_shadows != 0 || d->lamp_shadows != 0) { // else there may be no context either
         glDeleteTextures(1, &d->sun_shadows);
         glDeleteTextures(1, &d->lamp_shadows);

@@ -19,6 +19,7 @@ typedef struct gl_shadow_view {
 typedef struct gl_lights {
     GLuint lights, views;             // BUFFER_LIGHTS, BUFFER_SHADOW_VIEWS
     GLuint sun_shadows, lamp_shadows; // arrays of 32-bit float depth, compared bilinearly
+    alp_light_info *infos;            // [count] those that shine; names are not theirs
     uint32_t count;                   // lights
     gl_shadow_view *shadow_views;     // [view_count]
     uint32_t view_count;

@@ -66,45 +66,75 @@ static void find_ends(const alp_scene_info *info, const double axis[3], double e
     }
 }
 
-camera_view light_view_of_sun(const alp_scene_info *info, const float direction[3], uint32_t side)
+/// A parallel view that reaches through the scene.
+/// @param centre, half along the two axes, metres
+static camera_view make_parallel_view(const alp_scene_info *info, const float direction[3],
+                                      const double centre[2], const double half[2], uint32_t side)
 {
     camera_view view = {.width = side, .height = side, .parallel = true};
     const double forward[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
-    double right[3], up[3], x[2], y[2], z[2];
+    double right[3], up[3], z[2];
     find_frame(forward, right, up);
-    find_ends(info, right, x);
-    find_ends(info, up, y);
     find_ends(info, forward, z);
-    const double diagonal = diagonal_of(info), least = fmax(1e-6 * diagonal, 1e-30);
-    const double half_x = add_border(fmax(0.5 * (x[1] - x[0]), least), side);
-    const double half_y = add_border(fmax(0.5 * (y[1] - y[0]), least), side);
-    const double space = fmax(1e-3 * diagonal, 1e-30); // before and behind, for what is moved
+    const double space = fmax(1e-3 * diagonal_of(info), 1e-30); // for what is moved
     view.far_plane = (float)(z[1] - z[0] + 2.0 * space);
     for (int k = 0; k < 3; k++) {
-        view.origin[k] = (float)(0.5 * (x[0] + x[1]) * right[k] + 0.5 * (y[0] + y[1]) * up[k] +
-                                 (z[0] - space) * forward[k]);
+        view.origin[k] =
+            (float)(centre[0] * right[k] + centre[1] * up[k] + (z[0] - space) * forward[k]);
         view.forward[k] = direction[k];
-        view.right[k] = (float)(half_x * right[k]);
-        view.up[k] = (float)(half_y * up[k]);
+        view.right[k] = (float)(half[0] * right[k]);
+        view.up[k] = (float)(half[1] * up[k]);
     }
     return view;
 }
 
-/// @param tangent of half the angle that is seen
-static camera_view make_lamp_view(const alp_scene_info *info, const float position[3],
-                                  const double forward[3], double tangent, uint32_t side)
+camera_view light_view_of_sun(const alp_scene_info *info, const float direction[3], uint32_t side)
+{
+    const double forward[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
+    const double least = fmax(1e-6 * diagonal_of(info), 1e-30);
+    double axes[2][3], centre[2], half[2];
+    find_frame(forward, axes[0], axes[1]);
+    for (int a = 0; a < 2; a++) {
+        double ends[2];
+        find_ends(info, axes[a], ends);
+        centre[a] = 0.5 * (ends[0] + ends[1]);
+        half[a] = add_border(fmax(0.5 * (ends[1] - ends[0]), least), side);
+    }
+    return make_parallel_view(info, direction, centre, half, side);
+}
+
+camera_view light_view_of_box(const alp_scene_info *info, const float direction[3],
+                              const double low[3], const double high[3], uint32_t side)
+{
+    const double forward[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
+    double axes[2][3], centre[2], half[2];
+    find_frame(forward, axes[0], axes[1]);
+    for (int a = 0; a < 2; a++) {
+        centre[a] = half[a] = 0.0;
+        for (int k = 0; k < 3; k++) {
+            centre[a] += 0.5 * (low[k] + high[k]) * axes[a][k];
+            half[a] += 0.5 * (high[k] - low[k]) * fabs(axes[a][k]);
+        }
+        const double texel = 2.0 * half[a] / (side - 1);
+        centre[a] = texel * floor(centre[a] / texel + 0.5);
+        half[a] += 0.5 * texel;
+    }
+    return make_parallel_view(info, direction, centre, half, side);
+}
+
+camera_view light_view_of_lamp(const alp_scene_info *info, const float position[3],
+                               const double forward[3], double tangent, uint32_t side)
 {
     camera_view view = {.near_plane = (float)fmax(NEAR_SHARE * diagonal_of(info), 1e-30),
                         .width = side,
                         .height = side};
-    const double half = add_border(tangent, side);
     double right[3], up[3];
     find_frame(forward, right, up);
     memcpy(view.origin, position, sizeof view.origin);
     for (int k = 0; k < 3; k++) {
         view.forward[k] = (float)forward[k];
-        view.right[k] = (float)(half * right[k]);
-        view.up[k] = (float)(half * up[k]);
+        view.right[k] = (float)(tangent * right[k]);
+        view.up[k] = (float)(tangent * up[k]);
     }
     return view;
 }
@@ -132,7 +162,7 @@ light_cone light_cone_of(const alp_scene_info *info, const alp_light_info *lamp)
 camera_view light_view_of_cone(const alp_scene_info *info, const float position[3],
                                const light_cone *cone, uint32_t side)
 {
-    return make_lamp_view(info, position, cone->axis, tan(cone->outer), side);
+    return light_view_of_lamp(info, position, cone->axis, add_border(tan(cone->outer), side), side);
 }
 
 camera_view light_view_of_face(const alp_scene_info *info, const float position[3], int face,
@@ -140,5 +170,5 @@ camera_view light_view_of_face(const alp_scene_info *info, const float position[
 {
     double forward[3] = {0.0, 0.0, 0.0};
     forward[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
-    return make_lamp_view(info, position, forward, 1.0, side);
+    return light_view_of_lamp(info, position, forward, add_border(1.0, side), side);
 }

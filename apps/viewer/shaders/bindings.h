@@ -53,6 +53,9 @@
 #define UNIFORM_PEELED 17    // bool, whether only what lies behind TEXTURE_DEPTH is drawn
 #define UNIFORM_LIGHTS 18    // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19   // int, an alp_ambient_model
+// Of pass_maps.
+#define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
+#define MAP_NO_LIGHT 0xffffffffu
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance

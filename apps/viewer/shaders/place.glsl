@@ -17,16 +17,29 @@ vec3 corner(uint k)
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
+/// The way of the camera's ray through this pixel; not unit.
+vec3 ray_of_pixel()
+{
+    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
+    return camera_parallel ? camera_forward
+                           : camera_forward + at.x * camera_right - at.y * camera_up;
+}
+
+vec3 origin_of_pixel()
+{
+    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
+    return camera_parallel ? camera_origin + at.x * camera_right - at.y * camera_up
+                           : camera_origin;
+}
+
 /// A shading normal that points below the triangle is replaced by the triangle's.
 place find_place()
 {
-    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
-    vec3 ray = camera_forward + at.x * camera_right - at.y * camera_up;
+    vec3 ray = ray_of_pixel(), origin = origin_of_pixel();
     vec3 first = corner(0u), across = cross(corner(1u) - first, corner(2u) - first);
     place p;
     p.geometric = normalize(across);
-    p.position = camera_origin + dot(first - camera_origin, p.geometric) /
-                                     dot(ray, p.geometric) * ray;
+    p.position = origin + dot(first - origin, p.geometric) / dot(ray, p.geometric) * ray;
     float size = dot(vertex_normal, vertex_normal);
     p.normal = size > 1e-12 ? vertex_normal * inversesqrt(size) : p.geometric;
     if (dot(p.normal, p.geometric) <= 0.0) {

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "fields/propagation/lpv.h"
-#include "gl_lpv.h"
+#include "lpv_frame.h"
 #include "options/options.h"
 
 #include <alpenglow/lpv.h>
@@ -299,4 +299,94 @@ TEST(light_propagates_as_in_the_library)
         alp_lpv_destroy(lpv);
         test_gl_check();
     }
+}
+
+// --- frames --------------------------------------------------------------------------------------
+
+/// Flux of the coarsest grid of the card: 4π Σ p0 over what was injected.
+static double flux_on_card(const gl_lpv *v, int channel)
+{
+    const size_t cells = alpi_lpv_cells(v->options.size), all = v->options.cascades * cells;
+    GLint *whole = malloc(all * ROWS * sizeof *whole);
+    double sum = 0.0;
+    assert_non_null(whole);
+    glGetNamedBufferSubData(v->injected, 0, (GLsizeiptr)(all * ROWS * sizeof *whole), whole);
+    for (size_t i = all - cells; i < all; i++) {
+        sum += whole[i * ROWS + 4 * (size_t)channel];
+    }
+    free(whole);
+    return 4.0 * M_PI * (double)v->units[channel] * sum;
+}
+
+/// Light of a scene by rays and by rasterising: the flux of the maps, and the sums of the volume.
+static void compare_frames(const char *name, const alp_lighting_options *lighting, uint32_t points,
+                           uint32_t cascades, double flux_share, double sum_share)
+{
+    alp_scene *scene = test_load(context, name);
+    alp_lpv_options o = alp_lpv_options_for_scene(scene, 16, cascades);
+    alp_lpv_scene_options frame = alp_lpv_scene_options_default();
+    frame.lighting = *lighting;
+    frame.points = points;
+    alp_lpv *lpv = NULL;
+    alp_lpv_report report;
+    lpv_frame f;
+    gl_scene drawn;
+    gl_lights lights;
+    int code = EXIT_DONE;
+    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
+    ASSERT_OK(context, alp_lpv_light_scene(lpv, scene, &frame, &report));
+    assert_int_equal(gl_scene_create(scene, true, &drawn), EXIT_DONE);
+    assert_int_equal(gl_lights_create(scene, lighting, &lights), EXIT_DONE);
+    ASSERT_OK(context, lpv_frame_create(scene, &o, &frame, &code, &f));
+    assert_int_equal(code, EXIT_DONE);
+    const lpv_frame_scene in = {.scene = scene,
+                                .drawn = &drawn,
+                                .lights = &lights,
+                                .eye = {o.centre[0], o.centre[1], o.centre[2]}};
+    lpv_frame_light(&f, &in);
+    const double apart = compare_sums(lpv, &f.volume);
+    for (int k = 0; k < 3; k++) {
+        const double ratio = flux_on_card(&f.volume, k) / report.flux[k];
+        print_message("%s: flux %.4f of that by rays, sums apart by %.3g\n", name, ratio, apart);
+        ASSERT_NEAR(ratio, 1.0, flux_share);
+    }
+    ASSERT_NEAR(apart, 0.0, sum_share);
+    lpv_frame_destroy(&f);
+    gl_lights_destroy(&lights);
+    gl_scene_destroy(&drawn);
+    alp_lpv_destroy(lpv);
+    alp_scene_destroy(scene);
+    test_gl_check();
+}
+
+/// Suns, lamps and emissive surfaces. Rays are jittered in texels and pixels are not.
+TEST(frames_have_the_light_of_the_library)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_lighting_options l = alp_lighting_options_default();
+    compare_frames("builtin:cornell", &l, 4096, 1, 1e-5, 1e-5); // the same surfels
+    compare_frames("builtin:teapot-room", &l, 4096, 1, 0.01, 0.05);
+    const alp_lamp lamps[2] = {{.kind = ALP_LIGHT_POINT,
+                                .color = {1.0f, 0.5f, 0.25f},
+                                .intensity = 9.0f,
+                                .position = {0.3f, 0.6f, 0.2f}},
+                               {.kind = ALP_LIGHT_SPOT,
+                                .color = {1.0f, 1.0f, 1.0f},
+                                .intensity = 20.0f,
+                                .position = {0.5f, 0.9f, 0.3f},
+                                .direction = {0.0f, -1.0f, 0.2f},
+                                .outer_cone = 0.6f,
+                                .inner_cone = 0.3f}};
+    l.lamps = lamps;
+    l.lamp_count = 2;
+    compare_frames("builtin:cornell", &l, 4096, 1, 0.02, 0.06);
+    compare_frames("builtin:cornell", &l, 0, 1, 0.02, 0.06);
+    l.lamp_count = 0;
+    l.sun.illuminance = 10.0f;
+    l.sun.elevation = 0.9f;
+    l.sun.azimuth = 0.3f;
+    compare_frames("builtin:atrium", &l, 4096, 1, 0.01, 0.12);
+    compare_frames("builtin:atrium", &l, 0, 3, 0.01, 0.12);
 }
