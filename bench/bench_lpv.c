@@ -42,7 +42,7 @@ static alp_result fill(alp_lpv *lpv, uint32_t count)
     alp_lpv_begin(lpv);
     alp_result result = alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s);
     if (result == ALP_OK && lpv->options.blockers) {
-        result = alp_lpv_add_blockers(lpv, &s);
+        result = alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s);
     }
     free(positions);
     free(normals);

@@ -49,7 +49,7 @@ static alp_result light_frame(alp_lpv *lpv, float height)
     const alp_lpv_surfels map = draw_map(height);
     alp_lpv_begin(lpv);
     alp_result result = alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &map);
-    result = result ? result : alp_lpv_add_blockers(lpv, &map);
+    result = result ? result : alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &map);
     return result ? result : alp_lpv_propagate(lpv);
 }
 

@@ -76,7 +76,7 @@ SUB_ROOMS = {
 # public header: the lowest room that may include it, which stands for it in the law
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
-    "sh": "sh", "shared_constants": "base", "display": "film", "film": "film", "geometry": "scene", "light": "scene",
+    "sh": "sh", "shared_constants": "base", "display": "film", "film": "film", "geometry": "scene",
     "light": "scene", "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
     "field": "fields", "probes": "fields", "ambience": "fields", "lpv": "fields", "render": "render",
     "doctor": "doctor", "bake": "bake", "report": "report", "compare": "report", "alpenglow": "report",

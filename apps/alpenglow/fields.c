@@ -106,7 +106,7 @@ alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
     o.model = model;
     o.lighting = *lighting;
     o.bounces = lighting_bounces(a);
-    o.direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
+    o.direct = a->command == COMMAND_SAMPLE && a->values[OPTION_DIRECT].choice == 1;
     o.seed = a->values[OPTION_SEED].whole;
     o.progress = session_progress;
     o.progress_user = s;

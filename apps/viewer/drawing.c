@@ -7,6 +7,17 @@
 /// More panes than any eye sees through.
 enum { LAYER_LIMIT = 4096 };
 
+/// Draws the shadows of what does not move once.
+static int add_lights(const alp_scene *scene, const drawing_options *o, drawing *d)
+{
+    int code = gl_lights_create(scene, o->lighting, &d->light.lights);
+    code = code == EXIT_DONE ? pass_shadows_create(&d->shadows) : code;
+    if (code == EXIT_DONE) {
+        pass_shadows_draw(&d->shadows, &d->drawn, &d->light.lights);
+    }
+    return code;
+}
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
@@ -20,13 +31,16 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     }
     code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
-    return code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
+    return code == EXIT_DONE && lit ? add_lights(scene, o, d) : code;
 }
 
 void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
     gl_scene_destroy(&d->drawn);
+    pass_shadows_destroy(&d->shadows);
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);
     pass_background_destroy(&d->background);

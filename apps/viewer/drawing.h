@@ -6,6 +6,7 @@
 #include "pass_background.h"
 #include "pass_film.h"
 #include "pass_layers.h"
+#include "pass_shadows.h"
 #include "pass_surfaces.h"
 
 typedef struct drawing {
@@ -16,7 +17,8 @@ typedef struct drawing {
     pass_layers layers;
     pass_background background;
     pass_film film;
-    mode_light light; // of the mode; the caller fills it
+    pass_shadows shadows;
+    mode_light light; // of the mode; the caller fills all but the lights
 } drawing;
 
 typedef struct drawing_options {
@@ -24,6 +26,7 @@ typedef struct drawing_options {
     const view_mode *mode;
     const alp_lighting_options *lighting;
     uint32_t width, height;
+    bool direct; // lamps and suns shine, if the mode adds them to other light
     bool metals_black;
     bool level_zero; // textures are read bilinearly without mip levels, as by render
 } drawing_options;

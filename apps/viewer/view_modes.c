@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view_modes.h"
 
+#include "fields.h"
 #include "lightmaps.h"
 #include "shader_list.h"
 
@@ -21,12 +22,80 @@ static void bind_lightmap(const mode_light *light)
     gl_lightmap_bind(&light->lightmap);
 }
 
+static int prepare_ambient(session *s, const command_line *a, const alp_render_options *o,
+                           mode_light *light)
+{
+    field_source source = {0};
+    const alp_result result = field_fit(s, a, view_mode_of(a)->model, &o->lighting, &source);
+    if (result == ALP_OK) {
+        gl_ambient_create(source.field, &light->ambient);
+    }
+    field_source_clear(&source);
+    return result == ALP_OK ? EXIT_DONE : session_end(s, result);
+}
+
+static void bind_lights(const mode_light *light)
+{
+    gl_lights_bind(&light->lights);
+}
+
+static void bind_ambient(const mode_light *light)
+{
+    gl_ambient_bind(&light->ambient);
+    gl_lights_bind(&light->lights);
+}
+
+enum {
+    LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
+    MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT
+};
+
 /// In the order of the choices of --with.
 static const view_mode modes[] = {
-    {&shader_none_frag, USES_BACKGROUND | USES_PANES, ALP_RENDER_LIGHTMAP, NULL, NULL},
-    {&shader_albedo_frag, USES_METALS, ALP_RENDER_ALBEDO, NULL, NULL},
-    {&shader_lightmap_frag, USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS | USES_PANES,
-     ALP_RENDER_LIGHTMAP, prepare_lightmap, bind_lightmap},
+    {.fragment = &shader_none_frag,
+     .uses = USES_BACKGROUND | USES_PANES,
+     .method = ALP_RENDER_LIGHTMAP},
+    {.fragment = &shader_albedo_frag, .uses = USES_METALS, .method = ALP_RENDER_ALBEDO},
+    {.fragment = &shader_lightmap_frag,
+     .uses = MAPPED,
+     .method = ALP_RENDER_LIGHTMAP,
+     .prepare = prepare_lightmap,
+     .bind = bind_lightmap},
+    {.fragment = &shader_direct_frag,
+     .uses = LIT | USES_DIRECT,
+     .method = ALP_RENDER_FIELD,
+     .bind = bind_lights},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .model = ALP_AMBIENT_CONSTANT,
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .model = ALP_AMBIENT_HEMISPHERE,
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .model = ALP_AMBIENT_GROUND_MAP,
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .model = ALP_AMBIENT_CUBE,
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .model = ALP_AMBIENT_ENVIRONMENT,
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -48,12 +117,13 @@ int view_mode_check(const command_line *a)
                    {"--sun-size", OPTION_SUN_SIZE, USES_BACKGROUND},
                    {"--lamp", OPTION_LAMP, USES_LIGHTS},
                    {"--spot", OPTION_SPOT, USES_LIGHTS},
-                   {"--bounces", OPTION_BOUNCES, USES_LIGHTS},
+                   {"--bounces", OPTION_BOUNCES, USES_BOUNCES},
+                   {"--direct", OPTION_DIRECT, USES_SWITCH},
                    {"--size", OPTION_SIZE, USES_ATLAS},
                    {"--atlas", OPTION_ATLAS, USES_ATLAS},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
-                   {"--seed", OPTION_SEED, USES_ATLAS}};
+                   {"--seed", OPTION_SEED, USES_SEED}};
     const unsigned uses = view_mode_of(a)->uses;
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].use & uses) == 0 && a->values[read_by[i].id].given) {
@@ -67,4 +137,6 @@ int view_mode_check(const command_line *a)
 void mode_light_destroy(mode_light *light)
 {
     gl_lightmap_destroy(&light->lightmap);
+    gl_ambient_destroy(&light->ambient);
+    gl_lights_destroy(&light->lights);
 }

@@ -86,6 +86,10 @@ typedef struct alp_material_info {
     bool double_sided;                     ///< false: back faces are culled
     float transmission;                    ///< [0, 1]; share that passes: transmission · T.r
     alp_texture_info transmission_texture; ///< linear, red channel
+    /// Linear, in the tangent frame (t, b, n) of alp_scene_make_tangents. With s = normal_scale and
+    /// c = 2 T.rgb − 1 the shading normal is normalize(s · c.r · t + s · c.g · b + c.b · n).
+    alp_texture_info normal_texture; ///< its image is there after alp_scene_load_normal_maps
+    float normal_scale;              ///< [−1000, 1000]
 } alp_material_info;
 /// @param index < materials; else, as for a surface without a material: base colour .5, an empty
 ///        name and no texture
@@ -93,9 +97,30 @@ ALP_API alp_material_info alp_scene_get_material(const alp_scene *scene, uint32_
 
 /// An image of the scene, owned by it. alp_image_pixels gives its pixels.
 /// @param index < images
-/// @return NULL for no such image, one that could not be read (a warning said so when the scene was
-///         loaded), and one that no material reads
+/// @return NULL for no such image, one that could not be read (a warning said so when it was
+///         loaded), one that no material reads, and a normal map that is not loaded yet
 ALP_API const alp_image *alp_scene_get_image(const alp_scene *scene, uint32_t index);
+
+/// Loads the images of normal maps, which light does not need: alp_scene_load leaves them out, so
+/// that a bake spends neither time nor memory on them. One that cannot be read costs a warning
+/// ("image"); its material is drawn without. A second call loads nothing again. Normal maps are
+/// those of glTF, and of OBJ where a library says `norm`. A scene by alp_scene_simplify has none.
+/// Not during another call with the scene. Pictures and bakes of the library do not change.
+/// @return ALP_OK; INVALID_ARGUMENT (NULL); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_scene_load_normal_maps(alp_scene *scene);
+
+/// Computes the tangent of each vertex for normal maps. A tangent t is unit, perpendicular to the
+/// vertex normal n, and points along +u' of the normal texture, after its transform. The bitangent
+/// is b = w · cross(n, t), which points along −v', up in the image. w is 1, or −1 where the image
+/// is seen mirrored.
+///
+/// It is the mean over the usable triangles of the vertex, weighted by their angle there. Vertices
+/// are not divided: where mirrored halves share one, the larger angle decides w. TANGENT of a glTF
+/// is not read. Without a normal texture or its coordinates t is any perpendicular, and w is 1.
+/// @param tangents out, [vertex_count][4]: t and w
+/// @return ALP_OK; INVALID_ARGUMENT (NULL)
+ALP_API ALP_NODISCARD alp_result alp_scene_make_tangents(const alp_scene *scene,
+                                                         float (*tangents)[4]);
 
 ALP_END_DECLS
 

@@ -8,8 +8,8 @@
 //
 //     alp_lpv_follow(lpv, eye, forward);                     // each frame
 //     alp_lpv_begin(lpv);
-//     alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &map);    // of each lamp
-//     alp_lpv_add_blockers(lpv, &map);                       // of each view
+//     alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &map);       // of each lamp
+//     alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &map);    // of each view
 //     alp_lpv_propagate(lpv);
 //     alp_field_irradiance(field, count, positions, normals, irradiance);
 //
@@ -115,8 +115,11 @@ typedef struct alp_lpv_surfels {
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade,
                                                    const alp_lpv_surfels *surfels);
 /// Injects blockers. One call is one view: views are merged, as they show the same surfaces.
-/// @return ALP_OK; INVALID_ARGUMENT (no areas; the volume has no blockers)
-ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels);
+/// @param cascade the grid that the view was made for, which it enters alone, or
+///        ALP_LPV_ALL_CASCADES
+/// @return ALP_OK; INVALID_ARGUMENT (no areas; no such cascade; the volume has no blockers)
+ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv, uint32_t cascade,
+                                                      const alp_lpv_surfels *surfels);
 /// Lets light travel. Cost: about 20 ns a cell and step on one core, 40 with blockers, 60 with
 /// bounces too.
 /// @return ALP_OK; OUT_OF_MEMORY
@@ -181,6 +184,8 @@ typedef struct alp_lpv_grid {
 /// @param cascade below alp_lpv_options.cascades
 /// @param grid    out; valid until the next change. Its array belongs to the volume.
 ALP_API void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid);
+/// Steps of a propagation: alp_lpv_options.iterations, or the number that 0 stands for.
+ALP_API uint32_t alp_lpv_iterations(const alp_lpv *lpv);
 /// Elements of surfels since `begin` that were left out because a value was not finite.
 ALP_API uint64_t alp_lpv_skipped(const alp_lpv *lpv);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A scene: triangles in world space with materials, lights and cameras. Immutable once made, but
-// for alp_scene_set_metals.
+// for alp_scene_set_metals and alp_scene_load_normal_maps.
 #ifndef ALPENGLOW_SCENE_H
 #define ALPENGLOW_SCENE_H
 

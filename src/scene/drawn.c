@@ -73,6 +73,8 @@ alp_material_info alp_scene_get_material(const alp_scene *scene, uint32_t index)
         .double_sided = m->double_sided,
         .transmission = m->transmission,
         .transmission_texture = describe(&m->transmission_texture),
+        .normal_texture = describe(&m->normal_texture),
+        .normal_scale = m->normal_scale,
     };
     memcpy(info.base_color, m->base_color, sizeof info.base_color);
     memcpy(info.emission, m->emission, sizeof info.emission);
@@ -81,5 +83,9 @@ alp_material_info alp_scene_get_material(const alp_scene *scene, uint32_t index)
 
 const alp_image *alp_scene_get_image(const alp_scene *scene, uint32_t index)
 {
-    return scene != NULL && index < scene->image_count ? scene->images[index] : NULL;
+    if (scene == NULL || index >= scene->image_count) {
+        return NULL;
+    }
+    const bool apart = scene->images[index] == NULL && scene->normal_maps != NULL;
+    return apart ? scene->normal_maps[index] : scene->images[index];
 }

@@ -50,6 +50,9 @@ void alp_scene_destroy(alp_scene *scene)
     for (uint32_t i = 0; scene->images != NULL && i < scene->image_count; i++) {
         alp_image_destroy(scene->images[i]);
     }
+    for (uint32_t i = 0; scene->normal_maps != NULL && i < scene->image_count; i++) {
+        alp_image_destroy(scene->normal_maps[i]);
+    }
     for (uint32_t i = 0; scene->lights != NULL && i < scene->light_count; i++) {
         alpi_release(context, scene->lights[i].name);
     }
@@ -57,11 +60,11 @@ void alp_scene_destroy(alp_scene *scene)
         alpi_release(context, scene->uvs[i]);
     }
     alpi_sides_destroy(context, scene->sides);
-    void *const arrays[] = {scene->positions,       scene->normals,   scene->colors,
-                            scene->vertex_source,   scene->triangles, scene->triangle_surface,
-                            scene->triangle_usable, scene->surfaces,  scene->materials,
-                            scene->images,          scene->lights,    scene->cameras,
-                            scene->attachments,     scene->name};
+    void *const arrays[] = {scene->positions,       scene->normals,     scene->colors,
+                            scene->vertex_source,   scene->triangles,   scene->triangle_surface,
+                            scene->triangle_usable, scene->surfaces,    scene->materials,
+                            scene->images,          scene->normal_maps, scene->lights,
+                            scene->cameras,         scene->attachments, scene->name};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(context, arrays[i]);
     }
@@ -198,6 +201,9 @@ static bool clamp_value(float *value, float low, float high)
     return changed;
 }
 
+/// Far beyond what any map needs, so that a shader's squares stay finite.
+static const float NORMAL_SCALE_LIMIT = 1000.0f;
+
 static void clamp_materials(alp_scene *scene)
 {
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -212,6 +218,8 @@ static void clamp_materials(alp_scene *scene)
             changed |= clamp_value(&m->emission[k], 0.0f, 1e20f);
         }
         changed |= clamp_value(&m->alpha_cutoff, 0.0f, 1e20f);
+        m->normal_scale = isnan(m->normal_scale) ? 1.0f : m->normal_scale;
+        changed |= clamp_value(&m->normal_scale, -NORMAL_SCALE_LIMIT, NORMAL_SCALE_LIMIT);
         if (changed) {
             alpi_warn(scene->context, "material-range", m->name,
                       "material %u has values out of range: clamped, so that energy does not grow",

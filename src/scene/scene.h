@@ -49,6 +49,8 @@ typedef struct alpi_material {
     uint8_t blend_sets;             // bit n: slot n is one of three that are blended
     float transmission; // [0, 1]: share of light that passes through, KHR_materials_transmission
     alpi_texture transmission_texture; // channel R, linear
+    alpi_texture normal_texture;       // tangent space, linear; bakes do not read it
+    float normal_scale;                // of its x and y
 } alpi_material;
 
 typedef struct alpi_surface {
@@ -88,6 +90,7 @@ typedef struct alpi_attachment {
 typedef enum alpi_attachment_kind {
     ALPI_ATTACHMENT_DOCUMENT, // the file as read (formats)
     ALPI_ATTACHMENT_COLLADA,  // the same of a COLLADA file (formats)
+    ALPI_ATTACHMENT_PICTURES, // paths of the images of an OBJ (formats)
     ALPI_ATTACHMENT_TRACER,   // acceleration structure, made at its first use (trace)
     ALPI_ATTACHMENT_COUNT
 } alpi_attachment_kind;
@@ -128,6 +131,8 @@ struct alp_scene {
     alpi_material *materials;
     uint32_t image_count;
     alp_image **images; // NULL where none of our uses needs it or decoding failed (with a warning)
+    alp_image **normal_maps; // [image_count] images that only alp_scene_get_image gives, apart so
+                             // that writers do not copy them; NULL before they are loaded
     uint32_t light_count;
     alpi_light *lights;
     uint32_t camera_count;

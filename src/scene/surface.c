@@ -26,7 +26,9 @@ alpi_material alpi_material_default(void)
                            .alpha_cutoff = 0.5f,
                            .occlusion_texture = alpi_texture_none(),
                            .occlusion_strength = 1.0f,
-                           .transmission_texture = alpi_texture_none()};
+                           .transmission_texture = alpi_texture_none(),
+                           .normal_texture = alpi_texture_none(),
+                           .normal_scale = 1.0f};
 }
 
 vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target: glTF text, its buffers and images in data: URIs. What can be read is written with a
-// map and read again, and the maps that it has are compared with themselves.
+// map and read again, the maps that it has are compared with themselves, and it is made ready to be
+// drawn.
 #include "fuzz.h"
 
 #include <alpenglow/compare.h>
+#include <alpenglow/geometry.h>
 
 /// Reads the maps of light, which nothing else does.
 static void compare(const fuzz_run *run, const alp_scene *scene)
@@ -19,6 +21,27 @@ static void compare(const fuzz_run *run, const alp_scene *scene)
     }
 }
 
+/// Loads normal maps, which nothing else does, and checks the frames for them.
+static void draw(const fuzz_run *run, alp_scene *scene)
+{
+    const alp_geometry geometry = alp_scene_get_geometry(scene);
+    const alp_result result = alp_scene_load_normal_maps(scene);
+    fuzz_result(run, result, result == ALP_OK ? scene : NULL);
+    float(*tangents)[4] = calloc((size_t)geometry.vertex_count + 1, sizeof *tangents);
+    if (tangents == NULL || alp_scene_make_tangents(scene, tangents) != ALP_OK) {
+        abort();
+    }
+    for (uint32_t v = 0; v < geometry.vertex_count; v++) {
+        const float *t = tangents[v];
+        const float length = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+        if (!(length > 0.999f && length < 1.001f) || (t[3] != 1.0f && t[3] != -1.0f)) {
+            fuzz_abort("tangent of vertex %u: %g %g %g %g", v, (double)t[0], (double)t[1],
+                       (double)t[2], (double)t[3]);
+        }
+    }
+    free(tangents);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_run run = fuzz_begin(size);
@@ -27,6 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (scene != NULL) {
         fuzz_write_back(&run, scene, "out.gltf");
         compare(&run, scene);
+        draw(&run, scene);
     }
     alp_scene_destroy(scene);
     fuzz_end(&run);

@@ -57,10 +57,10 @@ static json_t *make_options(const lpv_run *run, const command_line *a, const lpv
 {
     const alp_lpv_options *o = &run->options;
     return json_pack(
-        "{s:I, s:o, s:I, s:o, s:s, s:s, s:o, s:I, s:o, s:I, s:I}", "grid", (json_int_t)o->size[0],
+        "{s:I, s:o, s:I, s:I, s:s, s:s, s:o, s:I, s:o, s:I, s:I}", "grid", (json_int_t)o->size[0],
         "cell", json_number(o->cell), "cascades", (json_int_t)o->cascades, "iterations",
-        o->iterations > 0 ? json_integer((json_int_t)o->iterations) : json_null(), "mode",
-        a->values[OPTION_MODE].text, "blockers", a->values[OPTION_BLOCKERS].text, "bounces",
+        (json_int_t)alp_lpv_iterations(run->lpv), "mode", a->values[OPTION_MODE].text, "blockers",
+        a->values[OPTION_BLOCKERS].text, "bounces",
         o->bounces == 1 ? json_integer(1) : json_string("converge"), "frames", (json_int_t)r->count,
         "sun_turn", json_number(r->sun_turn * (180.0 / M_PI)), "map_size",
         (json_int_t)run->frame.map_size, "points", (json_int_t)run->frame.points);

@@ -49,6 +49,7 @@ int lpv_run_refuse(const command_line *a)
                {"--iterations", OPTION_ITERATIONS},
                {"--mode", OPTION_MODE},
                {"--blockers", OPTION_BLOCKERS},
+               {"--map-size", OPTION_MAP_SIZE},
                {"--gloss", OPTION_GLOSS},
                {"--media", OPTION_MEDIA}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
@@ -88,6 +89,7 @@ static alp_lpv_scene_options make_frame(const command_line *a, const alp_lightin
     o.lighting = *lighting;
     o.lighting.sky.kind = ALP_SKY_NONE;
     o.points = a->values[OPTION_BLOCKERS].choice == BLOCKERS_POINTS ? o.points : 0;
+    o.map_size = (uint32_t)a->values[OPTION_MAP_SIZE].whole;
     o.seed = a->values[OPTION_SEED].whole;
     return o;
 }

@@ -91,6 +91,7 @@ typedef enum option_id {
     OPTION_ITERATIONS,
     OPTION_MODE,
     OPTION_BLOCKERS,
+    OPTION_MAP_SIZE,
     OPTION_FRAMES,
     OPTION_SUN_TURN,
     OPTION_GLOSS,

@@ -91,6 +91,18 @@ static const option rows[] = {
              "views: those that lamps and the camera of a picture see, as in a renderer on a "
              "GPU.\n"
              "off: none. Light goes through walls and is reflected once."},
+    {.id = OPTION_MAP_SIZE,
+     .commands = VOLUME_COMMANDS,
+     .group = GROUP_VOLUME,
+     .kind = KIND_WHOLE,
+     .name = "--map-size",
+     .value = "N",
+     .minimum = 4,
+     .maximum = 4096,
+     .unit = "texels",
+     .initial = "256",
+     .help = "Texels along each side of a map of what a lamp lights. Large maps flicker less where "
+             "lamps move."},
     {.id = OPTION_GLOSS,
      .commands = IN_RENDER,
      .group = GROUP_VOLUME,

@@ -26,11 +26,26 @@ static const option rows[] = {
      .kind = KIND_CHOICE,
      .name = "--with",
      .value = "MODE",
-     .choices = "none|albedo|lightmap",
+     .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
+                "environment",
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
-             "lightmap: as render --with lightmap."},
+             "lightmap: as render --with lightmap.\n"
+             "direct: light straight from lamps and suns, by shadow maps. Suns are points: their "
+             "shadows are sharp. Panes that let half the light through or more cast no shadow, "
+             "others a whole one.\n"
+             "constant, hemisphere, ground-map, ambient-cube, environment: the models of ambient "
+             "light, as of render, with light as of direct (--direct)."},
+    {.id = OPTION_DIRECT,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--direct",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "Light straight from lamps and suns, for the models of ambient light."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

@@ -193,6 +193,7 @@ void alp_lpv_destroy(alp_lpv *lpv)
         }
     }
     alpi_release(lpv->context, lpv->places);
+    alpi_release(lpv->context, lpv->order);
     alpi_release(lpv->context, lpv);
 }
 
@@ -312,6 +313,11 @@ void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid)
         grid->size[k] = g->size[k];
         grid->corner[k] = (double)g->sum_corner[k] * g->cell;
     }
+}
+
+uint32_t alp_lpv_iterations(const alp_lpv *lpv)
+{
+    return lpv->iterations;
 }
 
 uint64_t alp_lpv_skipped(const alp_lpv *lpv)

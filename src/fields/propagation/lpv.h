@@ -8,6 +8,13 @@
 
 #include <math.h>
 
+/// A place among the eight cells, or nodes, from `low` ≥ −1 on.
+typedef struct alpi_lpv_place {
+    int16_t low[3];
+    bool usable, held;    // any grid can hold the surfel; the present one does
+    float part[3], share; // of the upper cells; of the light that goes there
+} alpi_lpv_place;
+
 struct alp_lpv {
     alp_context *context;
     alp_lpv_options options;
@@ -16,8 +23,9 @@ struct alp_lpv {
     double eye[3];     // metres, of the last alp_lpv_follow; the centre before
     double forward[3]; // unit, or 0
     uint64_t skipped;
-    uint32_t *places; // [place_limit] cell or node of each surfel that is being added
-    size_t place_limit;
+    alpi_lpv_place *places; // [place_limit] of the surfels that are being added
+    uint32_t *order;        // [order_limit] of surfels, by layers
+    size_t place_limit, order_limit;
     alpi_lpv_grid grids[ALPI_LPV_CASCADES_MOST];
 };
 

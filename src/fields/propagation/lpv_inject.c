@@ -1,232 +1,154 @@
 // SPDX-License-Identifier: MIT
-// Surfels into grids: light into cells, blockers into nodes. Places are found first. Then each
-// worker takes a slab of the grid and adds the surfels of its slab in their order, so that sums do
-// not depend on the number of workers.
-#include "base/memory.h"
+// Surfels into grids: light into cells, blockers into nodes. Each worker takes layers of the grid
+// and adds the surfels there in their order, so that sums do not depend on the number of workers.
 #include "base/tasks.h"
-#include "fields/propagation/lpv.h"
+#include "fields/propagation/lpv_places.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 4096, SLABS = 8 };
-static const uint32_t OUTSIDE = UINT32_MAX, UNUSABLE = UINT32_MAX - 1; // in place of a place
-/// A virtual light lies half a cell above its surface. Surfaces often lie at halves of cells, and
-/// there rounding would choose between two cells: a thousandth more makes the choice.
-static const double ABOVE = 0.5, BEYOND = 0.001;
-/// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
-static const double BORDER = 0.15;
-
-typedef struct injection {
-    alp_lpv *lpv;
-    const alp_lpv_surfels *surfels;
-    alpi_lpv_grid *grid;
-    uint32_t index;   // of the grid
-    uint32_t cascade; // whose map the surfels are, or ALP_LPV_ALL_CASCADES
-    bool blockers;
-    alpi_lpv_fades fades;
-} injection;
-
-// --- what is usable ------------------------------------------------------------------------------
-
-static bool is_good(const float v[3], float least)
-{
-    bool good = true;
-    for (int k = 0; k < 3; k++) {
-        good = good && isfinite(v[k]) && v[k] >= least;
-    }
-    return good;
-}
-
-static bool is_usable(const injection *in, uint32_t i)
-{
-    const alp_lpv_surfels *s = in->surfels;
-    const float *n = s->normals[i], anything = -HUGE_VALF;
-    const float squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    bool good = is_good(s->positions[i], anything) && squares > 0.98f && squares < 1.02f;
-    if (in->blockers) {
-        good = good && isfinite(s->areas[i]) && s->areas[i] >= 0.0f;
-        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f));
-    } else {
-        good = good && is_good(s->flux[i], 0.0f);
-    }
-    return good && (s->radii == NULL || isfinite(s->radii[i]));
-}
-
-// --- places --------------------------------------------------------------------------------------
-
-/// Position in cells from the corner of a grid.
-static void place_in(const alpi_lpv_grid *g, const float position[3], double at[3])
-{
-    for (int k = 0; k < 3; k++) {
-        at[k] = (double)position[k] / g->cell - (double)g->corner[k];
-    }
-}
-
-/// Share that the coarsest of several grids takes: its last cell fades, or light would jump where
-/// the grid moves on. alp_lpv_options_for_scene leaves that cell empty. A single grid takes all.
-static double find_last_share(const alpi_lpv_fades *f, const double p[3])
-{
-    const uint32_t last = f->count - 1;
-    double least = 1.0;
-    for (int k = 0; k < 3 && last > 0; k++) {
-        const double away = fabs(p[k] - f->centre[last][k]) * f->cells[last];
-        least = f->half[k] >= 1.0 ? fmin(least, f->half[k] + 0.5 - away) : least;
-    }
-    return fmax(least, 0.0);
-}
-
-/// Share of a surfel's light that a grid takes. Maps of cascades are blended as the grids are.
-static double find_weight(const injection *in, const float position[3])
-{
-    const double p[3] = {(double)position[0], (double)position[1], (double)position[2]};
-    const alpi_lpv_fades *f = &in->fades;
-    const bool all = in->cascade == ALP_LPV_ALL_CASCADES;
-    const uint32_t map = all ? in->index : in->cascade;
-    double finer = 1.0; // what finer maps leave
-    for (uint32_t c = 0; c < map; c++) {
-        finer *= 1.0 - alpi_lpv_share(f, c, p);
-    }
-    const double own = map + 1 == f->count ? find_last_share(f, p) : alpi_lpv_share(f, map, p);
-    return all ? 1.0 - finer * (1.0 - own) : finer * own;
-}
-
-static uint32_t find_place(const injection *in, uint32_t i)
-{
-    const alp_lpv_surfels *s = in->surfels;
-    const alpi_lpv_grid *g = in->grid;
-    if (!is_usable(in, i)) {
-        return UNUSABLE;
-    }
-    const float radius = s->radii != NULL ? s->radii[i] : 0.0f;
-    if (radius > 0.0f && 2.0 * (double)radius < g->cell) {
-        return OUTSIDE;
-    }
-    double at[3];
-    uint32_t place = 0;
-    place_in(g, s->positions[i], at);
-    for (int k = 2; k >= 0; k--) { // nodes lie at corners of cells
-        const double end = (double)g->size[k] + (in->blockers ? 1.0 : 0.0);
-        const double n = (double)s->normals[i][k];
-        at[k] += in->blockers ? 0.5 + BEYOND * n : (ABOVE + BEYOND) * n;
-        if (!(at[k] >= 0.0) || at[k] >= end) {
-            return OUTSIDE;
-        }
-        place = place * (uint32_t)end + (uint32_t)at[k];
-    }
-    return place;
-}
-
-static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const injection *in = user;
-    for (uint32_t i = begin; i < end; i++) {
-        in->lpv->places[i] = find_place(in, i);
-    }
-    return ALP_OK;
-}
-
 // --- adding --------------------------------------------------------------------------------------
 
 /// A cosine lobe of flux Φ about n: Φ/π (1/4 + n·ω/2).
-static void add_lobe(float *p, size_t stride, float flux_over_pi, const float n[3])
+static void make_lobe(float flux_over_pi, const float n[3], float lobe[ALPI_LPV_TERMS])
 {
-    p[0] += 0.25f * flux_over_pi;
-    p[stride] += 0.5f * flux_over_pi * n[0];
-    p[2 * stride] += 0.5f * flux_over_pi * n[1];
-    p[3 * stride] += 0.5f * flux_over_pi * n[2];
-}
-
-static void add_light(const injection *in, uint32_t i, uint32_t place)
-{
-    const alpi_lpv_grid *g = in->grid;
-    const uint32_t x = place % g->size[0];
-    const float share = (float)(find_weight(in, in->surfels->positions[i]) / ALPI_PI);
-    float *cell = g->injected + (size_t)(place / g->size[0]) * ALPI_LPV_ROWS * g->size[0] + x;
-    for (uint32_t channel = 0; channel < 3 && share > 0.0f; channel++) {
-        add_lobe(cell + (size_t)channel * ALPI_LPV_TERMS * g->size[0], g->size[0],
-                 in->surfels->flux[i][channel] * share, in->surfels->normals[i]);
+    lobe[0] = 0.25f * flux_over_pi;
+    for (int k = 0; k < 3; k++) {
+        lobe[1 + k] = 0.5f * flux_over_pi * n[k];
     }
 }
 
-/// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s².
-static void add_blocker(const injection *in, uint32_t i, uint32_t place)
+static void make_light(const alpi_lpv_injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
+{
+    for (size_t channel = 0; channel < 3; channel++) {
+        make_lobe(in->surfels->flux[i][channel] / (float)ALPI_PI, in->surfels->normals[i],
+                  terms + channel * ALPI_LPV_TERMS);
+    }
+}
+
+/// B(ω) = A/s² (1/4 + n·ω/2): the lobe of a "flux" of π A/s². Then albedo × opacity.
+static void make_blocker(const alpi_lpv_injection *in, uint32_t i, float terms[ALPI_LPV_ROWS])
 {
     static const float grey[3] = {0.5f, 0.5f, 0.5f};
     const alp_lpv_surfels *s = in->surfels;
-    float *node = in->grid->view + (size_t)place * ALPI_LPV_NODE_TERMS;
     const float *albedo = s->albedo != NULL ? s->albedo[i] : grey;
     const float share = (float)((double)s->areas[i] / (in->grid->cell * in->grid->cell));
-    add_lobe(node, 1, share, s->normals[i]);
+    make_lobe(share, s->normals[i], terms);
     for (int k = 0; k < 3; k++) {
-        node[ALPI_LPV_TERMS + k] += 0.25f * share * albedo[k];
+        terms[ALPI_LPV_TERMS + k] = 0.25f * share * albedo[k];
     }
 }
 
-static alp_result add_slabs(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+/// Sums of surfels that lie between the same four places of a layer. They are next to each other in
+/// a map, and a sum in one place is faster than sums in four.
+typedef struct run {
+    int16_t low[2];
+    float sums[4][ALPI_LPV_ROWS]; // x, y: 00, 10, 01, 11
+} run;
+
+static void add_to_cell(const alpi_lpv_grid *g, const uint32_t at[3], const float *terms)
+{
+    const size_t n = g->size[0], row = (size_t)at[2] * g->size[1] + at[1];
+    float *rows = g->injected + row * ALPI_LPV_ROWS * n + at[0];
+    for (size_t t = 0; t < ALPI_LPV_ROWS; t++) {
+        rows[t * n] += terms[t];
+    }
+}
+
+static void add_to_node(const alpi_lpv_grid *g, const uint32_t at[3], const float *terms)
+{
+    const size_t wide = g->size[0] + 1, row = (size_t)at[2] * (g->size[1] + 1) + at[1];
+    float *node = g->view + (row * wide + at[0]) * ALPI_LPV_NODE_TERMS;
+    for (size_t t = 0; t < ALPI_LPV_NODE_TERMS; t++) {
+        node[t] += terms[t];
+    }
+}
+
+static void end_run(const alpi_lpv_injection *in, uint32_t z, run *r)
+{
+    for (int c = 0; c < 4; c++) { // a place one below the first is beyond the last, too
+        const uint32_t at[3] = {(uint32_t)(r->low[0] + (c & 1)), (uint32_t)(r->low[1] + (c >> 1)),
+                                z};
+        if (at[0] < in->ends[0] && at[1] < in->ends[1]) {
+            (in->blockers ? add_to_node : add_to_cell)(in->grid, at, r->sums[c]);
+        }
+    }
+    memset(r->sums, 0, sizeof r->sums);
+}
+
+/// Adds a surfel to the layer below or above it.
+static void add_surfel(const alpi_lpv_injection *in, uint32_t i, bool above, run *r)
+{
+    const alpi_lpv_place *p = &in->lpv->places[i];
+    const float share = p->share * (above ? p->part[2] : 1.0f - p->part[2]);
+    const float x = p->part[0], y = p->part[1],
+                parts[4] = {(1.0f - x) * (1.0f - y), x * (1.0f - y), (1.0f - x) * y, x * y};
+    float terms[ALPI_LPV_ROWS] = {0.0f};
+    if (in->blockers) {
+        make_blocker(in, i, terms);
+    } else {
+        make_light(in, i, terms);
+    }
+    for (int c = 0; c < 4; c++) {
+        for (int t = 0; t < ALPI_LPV_ROWS; t++) {
+            r->sums[c][t] += share * parts[c] * terms[t];
+        }
+    }
+}
+
+/// The surfels below layer z, then those above it.
+static alp_result add_layers(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
-    const injection *in = user;
-    const size_t places =
-        in->blockers ? alpi_lpv_nodes(in->grid->size) : alpi_lpv_cells(in->grid->size);
-    const uint32_t first = (uint32_t)(places * begin / SLABS),
-                   last = (uint32_t)(places * end / SLABS);
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        const uint32_t place = in->lpv->places[i];
-        if (place >= first && place < last) {
-            if (in->blockers) {
-                add_blocker(in, i, place);
-            } else {
-                add_light(in, i, place);
+    const alpi_lpv_injection *in = user;
+    for (uint32_t z = begin; z < end; z++) {
+        const uint32_t *first = in->layers + z;
+        run r = {.low = {0, 0}};
+        for (uint32_t k = first[0]; k < first[2]; k++) {
+            const uint32_t i = in->lpv->order[k];
+            const alpi_lpv_place *p = &in->lpv->places[i];
+            if (p->low[0] != r.low[0] || p->low[1] != r.low[1]) {
+                end_run(in, z, &r);
+                memcpy(r.low, p->low, sizeof r.low);
             }
+            add_surfel(in, i, k < first[1], &r);
         }
+        end_run(in, z, &r);
     }
     return ALP_OK;
 }
 
-static void count_unusable(const injection *in)
+/// Into grids [first, end).
+static alp_result inject(alpi_lpv_injection *in, uint32_t first, uint32_t end)
 {
-    for (uint32_t i = 0; i < in->surfels->count; i++) {
-        in->lpv->skipped += in->lpv->places[i] == UNUSABLE;
-    }
-}
-
-static alp_result inject(injection *in)
-{
-    alp_lpv *lpv = in->lpv;
-    const uint32_t count = in->surfels->count, finest = in->index;
-    in->fades = alpi_lpv_find_fades(lpv, BORDER);
-    if (count > lpv->place_limit) {
-        ALP_TRY(alpi_grow(lpv->context, (void **)&lpv->places, &lpv->place_limit, count,
-                          sizeof *lpv->places));
-    }
-    for (; in->index < lpv->options.cascades; in->index++) {
-        in->grid = &lpv->grids[in->index];
-        ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_places, in, NULL));
-        ALP_TRY(alpi_parallel_for(lpv->context, SLABS, 1, add_slabs, in, NULL));
-        if (in->index == finest) {
-            count_unusable(in);
-        }
+    ALP_TRY(alpi_lpv_begin_places(in));
+    for (uint32_t c = first; c < end; c++) {
+        ALP_TRY(alpi_lpv_find_places(in, c));
+        ALP_TRY(alpi_parallel_for(in->lpv->context, in->ends[2], 1, add_layers, in, NULL));
     }
     return ALP_OK;
 }
 
 // --- the host's calls ----------------------------------------------------------------------------
 
-alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
+static alp_result check_cascade(const alp_lpv *lpv, uint32_t cascade, const char *what)
 {
-    const bool all = cascade == ALP_LPV_ALL_CASCADES;
-    if (!all && cascade >= lpv->options.cascades) {
+    if (cascade != ALP_LPV_ALL_CASCADES && cascade >= lpv->options.cascades) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
-                         "lpv: light for cascade %u of %u; they are numbered from 0", cascade,
+                         "lpv: %s for cascade %u of %u; they are numbered from 0", what, cascade,
                          lpv->options.cascades);
     }
+    return ALP_OK;
+}
+
+alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
+{
+    ALP_TRY(check_cascade(lpv, cascade, "light"));
     if (surfels->count > 0 && surfels->flux == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: light without flux");
     }
-    injection in = {.lpv = lpv, .surfels = surfels, .index = all ? 0 : cascade, .cascade = cascade};
-    return inject(&in);
+    alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade};
+    return inject(&in, cascade == ALP_LPV_ALL_CASCADES ? 0 : cascade, lpv->options.cascades);
 }
 
 /// Adds a view to the merged ones: views show the same surfaces. A view without surface at a node
@@ -250,19 +172,21 @@ static void merge_view(alpi_lpv_grid *g, bool by_term)
     memset(g->view, 0, nodes * N * sizeof *g->view);
 }
 
-alp_result alp_lpv_add_blockers(alp_lpv *lpv, const alp_lpv_surfels *surfels)
+alp_result alp_lpv_add_blockers(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
 {
+    const bool all = cascade == ALP_LPV_ALL_CASCADES;
     if (!lpv->options.blockers) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
                          "lpv: the volume was made without blockers");
     }
+    ALP_TRY(check_cascade(lpv, cascade, "blockers"));
     if (surfels->count > 0 && surfels->areas == NULL) {
         return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: blockers without areas");
     }
-    injection in = {
-        .lpv = lpv, .surfels = surfels, .cascade = ALP_LPV_ALL_CASCADES, .blockers = true};
-    ALP_TRY(inject(&in));
-    for (uint32_t c = 0; c < lpv->options.cascades; c++) {
+    alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade, .blockers = true};
+    const uint32_t first = all ? 0 : cascade, end = all ? lpv->options.cascades : cascade + 1;
+    ALP_TRY(inject(&in, first, end));
+    for (uint32_t c = first; c < end; c++) {
         merge_view(&lpv->grids[c], lpv->options.mode != ALP_LPV_ACCURATE);
     }
     return ALP_OK;

@@ -35,7 +35,7 @@ static alp_result add_map(frame *f, uint32_t cascade, const alpi_surfels *surfel
     ALP_TRY(alp_lpv_add_light(f->lpv, cascade, &s));
     const double injected = alpi_seconds();
     if (view && f->lpv->options.blockers && f->options->points == 0) {
-        ALP_TRY(alp_lpv_add_blockers(f->lpv, &s));
+        ALP_TRY(alp_lpv_add_blockers(f->lpv, cascade, &s));
     }
     f->report.inject += injected - start;
     f->report.block += alpi_seconds() - injected;
@@ -161,7 +161,7 @@ static alp_result add_blockers(frame *f)
     alp_result result = find_blockers(f, &surfels);
     const alp_lpv_surfels s = alpi_surfels_view(&surfels);
     const double start = alpi_seconds();
-    result = result == ALP_OK ? alp_lpv_add_blockers(f->lpv, &s) : result;
+    result = result == ALP_OK ? alp_lpv_add_blockers(f->lpv, ALP_LPV_ALL_CASCADES, &s) : result;
     f->report.block += alpi_seconds() - start;
     alpi_surfels_destroy(f->lpv->context, &surfels);
     return result;

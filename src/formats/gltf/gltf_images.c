@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images of a glTF asset. Only those that a used material needs for diffuse light are decoded; one
-// that cannot be read costs a warning, because its material still has a factor.
+// that cannot be read costs a warning, because its material still has a factor. Normal maps are
+// decoded later, by normal_maps.c.
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
@@ -71,18 +72,18 @@ alp_result alpi_gltf_decode_image(const alpi_gltf_document *document, size_t ind
     return result;
 }
 
-static alp_result read_image(const alpi_gltf_reader *reader, size_t index, alp_image **image)
+alp_result alpi_gltf_read_image(const alpi_gltf_document *document, size_t index, alp_image **image)
 {
-    const alp_result result = alpi_gltf_decode_image(reader->document, index, image);
+    const alp_result result = alpi_gltf_decode_image(document, index, image);
     if (result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY) {
         return result;
     }
     char owner[ALPI_GLTF_OWNER_SIZE];
     snprintf(owner, sizeof owner, "image %zu", index);
     char reason[512];
-    snprintf(reason, sizeof reason, "%s", alp_context_message(reader->context));
+    snprintf(reason, sizeof reason, "%s", alp_context_message(document->context));
     alpi_gltf_clean(reason);
-    alpi_warn(reader->context, "image", owner, "%s; its materials are read without this texture",
+    alpi_warn(document->context, "image", owner, "%s; its materials are read without this texture",
               reason);
     return ALP_OK;
 }
@@ -104,7 +105,7 @@ alp_result alpi_gltf_read_images(alpi_gltf_reader *reader)
     alp_result result = ALP_OK;
     for (size_t i = 0; i < count && result == ALP_OK; i++) {
         if (needed[i]) {
-            result = read_image(reader, i, &scene->images[i]);
+            result = alpi_gltf_read_image(reader->document, i, &scene->images[i]);
         }
     }
     alpi_release(reader->context, needed);

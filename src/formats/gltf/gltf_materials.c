@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Materials: what a bake of diffuse light needs — base colour, metalness, emission, alpha,
-// transmission, existing occlusion. KHR_materials_pbrSpecularGlossiness gives its diffuse colour.
+// transmission, existing occlusion — and what only drawing needs: normal maps.
+// KHR_materials_pbrSpecularGlossiness gives its diffuse colour.
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
@@ -14,6 +15,7 @@ typedef struct source {
     const alpi_gltf_reader *reader;
     json_t *object;
     const char *owner;
+    bool quiet; // no warnings of textures: alp_scene_load_normal_maps gives them
 } source;
 
 static alpi_wrap read_wrap(json_t *sampler, const char *member)
@@ -51,7 +53,7 @@ static alp_result find_image(const source *from, json_t *texture, const char *ow
     if (*image == ALPI_GLTF_NONE) {
         ALP_TRY(alpi_gltf_index(document, texture, "source", "images", owner, image));
     }
-    if (*image == ALPI_GLTF_NONE) {
+    if (*image == ALPI_GLTF_NONE && !from->quiet) {
         alpi_warn(from->reader->context, "image", owner,
                   "has no PNG, JPEG or WebP image%s; the factor of %s is used alone",
                   alpi_gltf_extension(texture, "KHR_texture_basisu") != NULL
@@ -89,9 +91,11 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
         return ALP_OK;
     }
     if (uv_set >= ALPI_UV_SET_LIMIT) {
-        alpi_warn(from->reader->context, "uv-set", from->owner,
-                  "%s uses TEXCOORD_%zu, only 0 to %d are read: the factor is used alone", member,
-                  uv_set, ALPI_UV_SET_LIMIT - 1);
+        if (!from->quiet) {
+            alpi_warn(from->reader->context, "uv-set", from->owner,
+                      "%s uses TEXCOORD_%zu, only 0 to %d are read: the factor is used alone",
+                      member, uv_set, ALPI_UV_SET_LIMIT - 1);
+        }
         return ALP_OK;
     }
     json_t *wrap = sampler == ALPI_GLTF_NONE ? NULL : alpi_gltf_item(document, "samplers", sampler);
@@ -105,7 +109,7 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
 alp_result alpi_gltf_read_texture(const alpi_gltf_reader *reader, json_t *object,
                                   const char *member, const char *owner, alpi_texture *texture)
 {
-    const source from = {reader, object, owner};
+    const source from = {reader, object, owner, false};
     return read_texture(&from, object, member, texture);
 }
 
@@ -192,6 +196,17 @@ static alp_result read_transmission(const source *from, alpi_material *material)
                              &factor));
     material->transmission = alpi_gltf_float(factor);
     return read_texture(from, extension, "transmissionTexture", &material->transmission_texture);
+}
+
+/// Light does not need it, so nothing of it is warned of here.
+static alp_result read_normal(const source *from, alpi_material *material)
+{
+    const source quiet = {from->reader, from->object, from->owner, true};
+    json_t *info = json_object_get(from->object, "normalTexture");
+    double scale = 1.0;
+    ALP_TRY(alpi_gltf_number(from->reader->document, info, "scale", from->owner, &scale));
+    material->normal_scale = alpi_gltf_float(scale);
+    return read_texture(&quiet, from->object, "normalTexture", &material->normal_texture);
 }
 
 /// Whether a bake made this material for a primitive that had none.
@@ -295,6 +310,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     ALP_TRY(read_alpha(from, material));
     ALP_TRY(read_transmission(from, material));
     ALP_TRY(read_occlusion(from, material));
+    ALP_TRY(read_normal(from, material));
     read_blend(from, material);
     return ALP_OK;
 }
@@ -312,7 +328,7 @@ alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)
     for (size_t i = 0; i < count; i++) {
         char owner[ALPI_GLTF_OWNER_SIZE];
         snprintf(owner, sizeof owner, "material %zu", i);
-        source from = {reader, alpi_gltf_item(reader->document, "materials", i), owner};
+        source from = {reader, alpi_gltf_item(reader->document, "materials", i), owner, false};
         ALP_TRY(read_material(&from, &reader->scene->materials[i]));
     }
     return ALP_OK;

@@ -45,6 +45,9 @@ alp_result alpi_gltf_read_images(alpi_gltf_reader *reader);
 /// One image of the document, or why it cannot be read.
 alp_result alpi_gltf_decode_image(const alpi_gltf_document *document, size_t index,
                                   alp_image **image);
+/// The same; one that cannot be read stays NULL and costs a warning. @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_gltf_read_image(const alpi_gltf_document *document, size_t index,
+                                alp_image **image);
 /// gltf_cameras.c
 alp_result alpi_gltf_read_cameras(alpi_gltf_reader *reader);
 /// gltf_lights.c

@@ -8,6 +8,7 @@
 //   obj_mesh.c       alpi_obj → surfaces, vertices, triangles of a scene
 //   obj_materials.c  MTL files → materials of a scene
 //   obj_images.c     the pictures that they name
+//   obj_pictures.c   their names, kept for those that are read later
 //   obj_write.c      a scene with its bake → OBJ
 //   obj_write_mtl.c  its MTL and pictures
 #ifndef ALPI_FORMATS_OBJ_H
@@ -78,8 +79,13 @@ alp_result alpi_obj_resolve(alp_context *context, const char *folder, alpi_obj_w
 /// From the working folder; released by the caller.
 char *alpi_obj_path(const alpi_obj *obj, const char *inner);
 
-/// Decodes the pictures that materials of surfaces use.
+/// Decodes the pictures that materials of surfaces use for light.
 alp_result alpi_obj_read_images(const alpi_obj *obj, const alpi_obj_names *images,
                                 alp_scene *scene);
+/// One of them; NULL, with a warning, where it cannot be read. @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_obj_read_image(const alpi_obj *obj, const char *name, alp_image **image);
+/// Keeps their names and the folder with a scene that has normal maps, for alpi_obj_read_picture.
+/// It takes both over then.
+alp_result alpi_obj_keep_pictures(alpi_obj *obj, alpi_obj_names *images, alp_scene *scene);
 
 #endif

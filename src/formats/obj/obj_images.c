@@ -30,7 +30,7 @@ static void mark_images(const alp_scene *scene, bool *needed)
     }
 }
 
-static alp_result read_image(const alpi_obj *obj, const char *name, alp_image **image)
+alp_result alpi_obj_read_image(const alpi_obj *obj, const char *name, alp_image **image)
 {
     uint8_t *bytes = NULL;
     size_t size = 0;
@@ -65,7 +65,7 @@ alp_result alpi_obj_read_images(const alpi_obj *obj, const alpi_obj_names *image
     }
     for (uint32_t i = 0; result == ALP_OK && i < images->count; i++) {
         if (needed[i]) {
-            result = read_image(obj, alpi_obj_name(images, i), &scene->images[i]);
+            result = alpi_obj_read_image(obj, alpi_obj_name(images, i), &scene->images[i]);
         }
     }
     alpi_release(obj->context, needed);

@@ -184,9 +184,10 @@ static alp_result take_options(alpi_obj_text *t, alpi_texture *texture)
     return ALP_OK;
 }
 
-static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, alpi_texture *texture)
+/// The texture of a statement; lost where the file that it names is outside.
+static alp_result find_texture(reader *r, alpi_obj_text *t, alpi_texture *texture, char shown[128])
 {
-    char *path = NULL, shown[128];
+    char *path = NULL;
     bool added;
     *texture = alpi_texture_none();
     ALP_TRY(take_options(t, texture));
@@ -194,19 +195,28 @@ static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, al
     if (name.size == 0) {
         return ALP_OK;
     }
+    show(name, shown);
     ALP_TRY(alpi_obj_resolve(r->obj->context, r->folder, name, &path));
     if (path == NULL) {
-        show(name, shown);
-        alpi_warn(r->obj->context, "image", r->scene->materials[r->scene->material_count - 1].name,
-                  "%s: line %llu: \"%s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT ": "
-                  "the colour of %s is used alone",
-                  t->path, (unsigned long long)t->line, shown, what + 4);
         texture->lost = true;
         return ALP_OK;
     }
     alp_result result = alpi_obj_names_add(r->images, path, strlen(path), &texture->image, &added);
     alpi_release(r->obj->context, path);
     return result;
+}
+
+static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, alpi_texture *texture)
+{
+    char shown[128];
+    ALP_TRY(find_texture(r, t, texture, shown));
+    if (texture->lost) {
+        alpi_warn(r->obj->context, "image", r->scene->materials[r->scene->material_count - 1].name,
+                  "%s: line %llu: \"%s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT ": "
+                  "the colour of %s is used alone",
+                  t->path, (unsigned long long)t->line, shown, what + 4);
+    }
+    return ALP_OK;
 }
 
 // --- statements ----------------------------------------------------------------------------------
@@ -334,6 +344,11 @@ static alp_result read_statement(reader *r, alpi_obj_text *t)
     }
     if (alpi_obj_word_is(key, "map_Ka") && r->occlusion) {
         return read_texture(r, t, "map_Ka", &m->occlusion_texture);
+    }
+    if (alpi_obj_word_is(key,
+                         "norm")) { // map_Bump may be heights or normals, which it does not say
+        char shown[128];
+        return find_texture(r, t, &m->normal_texture, shown);
     }
     if (alpi_obj_word_is(key, "map_d")) {
         alpi_texture texture;

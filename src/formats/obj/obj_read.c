@@ -390,6 +390,9 @@ static alp_result fill_scene(alpi_obj *obj, alp_scene *scene)
     if (result == ALP_OK) {
         result = alpi_obj_read_images(obj, &images, scene);
     }
+    if (result == ALP_OK) {
+        result = alpi_obj_keep_pictures(obj, &images, scene);
+    }
     alpi_release(obj->context, materials);
     alpi_obj_names_destroy(&images);
     scene->input_hash = obj->hash;

@@ -7,8 +7,8 @@ $light --frames 2 --json frames.json -q
 json_shape frames.json
 $light --frames 2 --json - --threads 1 | light_of | cmp - <(light_of <frames.json) && echo "threads agree"
 options() { $light --frames 1 --json - "$@" | sed -n '/"options"/,/}/p' | tr -d ' \n'; echo; }
-options --cell .2 --cascades 2 --iterations 4 --mode conformance --blockers off --bounces 1
-options --sun 0,45,1000 --blockers views
+options --cell .2 --cascades 2 --map-size 16 --mode conformance --blockers off --bounces 1
+options --sun 0,45,1000 --iterations 4 --blockers views
 options --sun 0,45,1000 --sun-turn -2 --blockers points
 for options in "" "--cascades 2" "--blockers off" "--sun 0,45,10"; do
     $light --frames 1 $options | awk -v options="$options" '/^flux/ {print options, ($2 > 0 ? "light" : "none")}'

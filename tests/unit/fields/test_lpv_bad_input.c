@@ -83,6 +83,22 @@ TEST(options_out_of_range_are_refused)
     alp_lpv_destroy(NULL);
 }
 
+/// 0 iterations stand for the longest side of one grid, and for 8 of several.
+TEST(iterations_have_a_default)
+{
+    static const uint32_t expected[2] = {9, 8};
+    for (uint32_t i = 0; i < 2; i++) {
+        alp_lpv_options o = small_options(4);
+        alp_lpv *lpv = NULL;
+        o.size[2] = 9;
+        o.cascades = i + 1;
+        o.iterations = 0;
+        ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
+        assert_int_equal(alp_lpv_iterations(lpv), expected[i]);
+        alp_lpv_destroy(lpv);
+    }
+}
+
 TEST(options_of_scenes_are_refused)
 {
     enum { BAD = 5 };
@@ -164,7 +180,7 @@ TEST(a_grid_of_one_cell_works)
             const alp_lpv_surfels s = {
                 .count = 1, .positions = p, .normals = n, .flux = n, .areas = &area};
             ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
-            ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+            ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
             ASSERT_OK(context, alp_lpv_propagate(lpv));
             alp_field *field = NULL;
             ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
@@ -267,7 +283,7 @@ static uint64_t inject(const surfel_list *list, bool blockers, float *values, si
     alp_lpv *lpv = open_small(8);
     const alp_lpv_surfels s = view_of(list);
     if (blockers) {
-        ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+        ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
     } else {
         ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
     }
@@ -359,19 +375,23 @@ TEST(surfels_without_what_they_need_are_refused)
     const alp_lpv_surfels none = {.count = 0};
     ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &none));
     ASSERT_OK(context, alp_lpv_add_light(lpv, 0, &none));
-    ASSERT_OK(context, alp_lpv_add_blockers(lpv, &none));
-    expect(alp_lpv_add_light(lpv, 1, &s), ALP_ERROR_INVALID_ARGUMENT, "cascade 1 of 1");
+    ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &none));
+    expect(alp_lpv_add_light(lpv, 1, &s), ALP_ERROR_INVALID_ARGUMENT, "light for cascade 1 of 1");
+    expect(alp_lpv_add_blockers(lpv, 1, &s), ALP_ERROR_INVALID_ARGUMENT,
+           "blockers for cascade 1 of 1");
     s.flux = NULL;
     expect(alp_lpv_add_light(lpv, 0, &s), ALP_ERROR_INVALID_ARGUMENT, "flux");
-    ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+    ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
     s.areas = NULL;
-    expect(alp_lpv_add_blockers(lpv, &s), ALP_ERROR_INVALID_ARGUMENT, "areas");
+    expect(alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s), ALP_ERROR_INVALID_ARGUMENT,
+           "areas");
     alp_lpv_destroy(lpv);
     alp_lpv_options o = small_options(4);
     o.blockers = false;
     ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
     s = view_of(&l);
-    expect(alp_lpv_add_blockers(lpv, &s), ALP_ERROR_INVALID_ARGUMENT, "blockers");
+    expect(alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s), ALP_ERROR_INVALID_ARGUMENT,
+           "blockers");
     alp_lpv_destroy(lpv);
 }
 
@@ -390,7 +410,7 @@ TEST(arrays_that_may_be_left_out_have_their_default)
             s.albedo = NULL;
             s.radii = NULL;
         }
-        ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+        ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
         memcpy(values[i], lpv->grids[0].nodes, sizeof values[i]);
         alp_lpv_destroy(lpv);
     }

@@ -71,7 +71,7 @@ static void cover(int axis, float at, float side, float half, float albedo)
 static void block_all(alp_lpv *lpv)
 {
     const alp_lpv_surfels s = dense_view();
-    ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+    ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
 }
 
 /// Mean E at places [−half, half]² of a plane across x, of light that travels along ±x.
@@ -268,11 +268,11 @@ static double node_opacity(const alp_lpv *lpv, const float normal[3])
 /// Adds a view of a wall at the origin of which it sees a share.
 static void add_view(alp_lpv *lpv, const float normal[3], float share)
 {
-    const float p[1][3] = {{0.1f, -0.2f, 0.3f}}, albedo[1][3] = {{0.2f, 0.5f, 0.8f}};
+    const float p[1][3] = {{0.0f, 0.0f, 0.0f}}, albedo[1][3] = {{0.2f, 0.5f, 0.8f}};
     const float n[1][3] = {{normal[0], normal[1], normal[2]}};
     const alp_lpv_surfels s = {
         .count = 1, .positions = p, .normals = n, .areas = &share, .albedo = albedo};
-    ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+    ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
 }
 
 static size_t node_bytes(const alp_lpv *lpv)

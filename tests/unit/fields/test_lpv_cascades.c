@@ -91,7 +91,7 @@ static void light_floor(alp_lpv *lpv, int dense)
         const alp_lpv_surfels s = map_view();
         ASSERT_OK(context, alp_lpv_add_light(lpv, c, &s));
         if (lpv->options.blockers) {
-            ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+            ASSERT_OK(context, alp_lpv_add_blockers(lpv, c, &s));
         }
     }
     ASSERT_OK(context, alp_lpv_propagate(lpv));
@@ -148,6 +148,32 @@ TEST(each_place_is_lit_once)
         ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
         for (uint32_t c = 0; c < 3; c++) {
             ASSERT_NEAR(flux_in(lpv, c) / sums[c], 1.0, 1e-3);
+        }
+        alp_lpv_destroy(lpv);
+    }
+}
+
+static double opacity_in(const alp_lpv *lpv, uint32_t cascade)
+{
+    const alpi_lpv_grid *g = &lpv->grids[cascade];
+    double sum = 0.0;
+    for (size_t i = 0; i < alpi_lpv_nodes(g->size); i++) {
+        sum += (double)g->nodes[i * ALPI_LPV_NODE_TERMS];
+    }
+    return sum;
+}
+
+/// A view of a grid blocks light there alone, and a view of all grids in each.
+TEST(views_block_where_they_belong)
+{
+    for (uint32_t view = 0; view < 4; view++) {
+        alp_lpv *lpv = open_volume(8, 0.5, 3, true);
+        make_map(lpv, view < 3 ? view : 0, 4, true);
+        const alp_lpv_surfels s = map_view();
+        ASSERT_OK(context, alp_lpv_add_blockers(lpv, view < 3 ? view : ALP_LPV_ALL_CASCADES, &s));
+        for (uint32_t c = 0; c < 3; c++) {
+            const bool blocks = view == c || view == 3;
+            assert_true((opacity_in(lpv, c) > 0.0) == blocks);
         }
         alp_lpv_destroy(lpv);
     }
@@ -350,18 +376,19 @@ static void walk(uint32_t side, double cell, bool blockers, uint32_t frames)
 TEST(light_is_steady_while_the_camera_moves)
 {
     walk(16, 0.5, true, 60);
-    expect_steady(&steps, "floor", 1.0, 1.5);
+    expect_steady(&steps, "floor", 0.7, 1.2);
 }
 
 TEST_SLOW(light_is_steady_on_a_long_walk)
 {
     walk(16, 0.5, true, 600);
-    expect_steady(&steps, "floor", 1.0, 3.0);
+    expect_steady(&steps, "floor", 0.8, 1.2);
 }
 
 /// A scene with maps by rays. The camera moves by `step` metres a frame and the sun turns by `turn`
 /// degrees. All points are in the two finest grids.
-static void light_frames(const char *name, uint32_t frames, double step, double turn)
+static void light_frames(const char *name, uint32_t frames, uint32_t map_size, double step,
+                         double turn)
 {
     alp_scene *scene = test_load(context, name);
     const alp_scene_info info = alp_scene_get_info(scene);
@@ -377,6 +404,7 @@ static void light_frames(const char *name, uint32_t frames, double step, double 
     ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
     steps.frames = 0;
     alp_lpv_scene_options o = alp_lpv_scene_options_default();
+    o.map_size = map_size;
     o.lighting.sun.illuminance = 10.0f;
     o.lighting.sun.elevation = 0.9f;
     for (uint32_t i = 0; i < frames; i++) {
@@ -395,13 +423,16 @@ static void light_frames(const char *name, uint32_t frames, double step, double 
 /// Texels lie at the same places of the world in each frame.
 TEST_SLOW(a_scene_is_steady_while_the_camera_moves)
 {
-    light_frames("builtin:atrium", 12, 0.01, 0.0);
-    expect_steady(&steps, "atrium, camera", 3.6, 4.0);
+    light_frames("builtin:atrium", 12, 256, 0.01, 0.0);
+    expect_steady(&steps, "atrium, camera", 2.5, 4.0);
 }
 
-/// Texels move over the surfaces, from cell to cell. That is noise, which larger maps lower.
-TEST_SLOW(a_scene_is_noisy_while_the_sun_turns)
+/// Texels at the edges of shadows are lit or dark as a whole, and larger maps have smaller texels.
+/// The light itself changes by 3.2 % and 3.6 %, which maps of 4096 texels show.
+TEST_SLOW(a_scene_flickers_less_with_larger_maps)
 {
-    light_frames("builtin:atrium", 8, 0.0, 0.1);
-    expect_steady(&steps, "atrium, sun", 100.0, 250.0);
+    light_frames("builtin:atrium", 8, 256, 0.0, 0.1);
+    expect_steady(&steps, "atrium, sun", 40.0, 60.0);
+    light_frames("builtin:atrium", 5, 1024, 0.0, 0.1);
+    expect_steady(&steps, "atrium, sun, large maps", 10.0, 20.0);
 }

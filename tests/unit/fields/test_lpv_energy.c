@@ -64,7 +64,7 @@ static void add_random(alp_lpv *lpv, uint32_t count, bool blockers)
                                        .normals = (const float(*)[3])n,
                                        .areas = &area,
                                        .albedo = albedo};
-            ASSERT_OK(context, alp_lpv_add_blockers(lpv, &s));
+            ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
         }
     }
 }
@@ -312,7 +312,7 @@ TEST(whole_cells_do_not_matter)
         const float area = 0.8f, q[1][3] = {{1.1f, 1.9f, 0.3f}}, m[1][3] = {{0.0f, -1.0f, 0.0f}};
         const alp_lpv_surfels wall = {.count = 1, .positions = q, .normals = m, .areas = &area};
         add_one(lpv, p, n, 1.0f);
-        ASSERT_OK(context, alp_lpv_add_blockers(lpv, &wall));
+        ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &wall));
         ASSERT_OK(context, alp_lpv_propagate(lpv));
         alp_field *field = NULL;
         ASSERT_OK(context, alp_field_create_lpv(lpv, &field));

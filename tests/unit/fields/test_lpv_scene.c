@@ -235,12 +235,12 @@ TEST(a_double_sided_lamp_shines_to_both_sides)
         const vec3 flux = flux_in(lpv, scene, NULL);
         ASSERT_NEAR((double)flux.x / (FIELD_PI * 64.0), both != 0 ? 2.0 : 1.0, 1e-3);
         const float *injected = lpv->grids[0].injected;
-        for (size_t z = 4; z < 12; z++) {
-            for (size_t x = 4; x < 12; x++) { // the floor lies between cells 7 and 8
+        for (size_t z = 5; z < 11; z++) { // beside its border, which is shared with cells outside
+            for (size_t x = 5; x < 11; x++) { // the floor lies between cells 7 and 8
                 const float above = injected[(z * 16 + 8) * ALPI_LPV_ROWS * 16 + x];
                 const float below = injected[(z * 16 + 7) * ALPI_LPV_ROWS * 16 + x];
-                ASSERT_NEAR((double)above, 0.25, 0.02);
-                ASSERT_NEAR((double)below, both != 0 ? 0.25 : 0.0, 0.02);
+                ASSERT_NEAR((double)above, 0.25, 0.01);
+                ASSERT_NEAR((double)below, both != 0 ? 0.25 : 0.0, 0.01);
             }
         }
         alp_lpv_destroy(lpv);

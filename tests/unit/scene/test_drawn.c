@@ -1,85 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What a host draws: the arrays and values that it gets are enough to compute the library's albedo.
-#include "test_gltf.h"
-#include "test_scenes.h"
+#include "drawn_asset.h"
+#include "host_shader.h"
 
-#include "base/image.h"
-#include "base/memory.h"
-#include "formats/images/images.h"
+#include "scene/scene.h"
 
 #include <math.h>
-
-// --- a host's own shader -------------------------------------------------------------------------
-
-static int64_t wrap(int64_t i, int64_t size, alp_wrap mode)
-{
-    if (mode == ALP_WRAP_CLAMP) {
-        return i < 0 ? 0 : i >= size ? size - 1 : i;
-    }
-    const int64_t period = mode == ALP_WRAP_MIRROR ? 2 * size : size;
-    i = (i % period + period) % period;
-    return i < size ? i : period - 1 - i;
-}
-
-static double decode(double c)
-{
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
-/// Bilinear, of an 8-bit RGBA image, by public calls alone.
-static void sample(const alp_scene *scene, const alp_texture_info *t, const double uv[2], bool srgb,
-                   double rgba[4])
-{
-    const alp_image *image = alp_scene_get_image(scene, t->image);
-    assert_non_null(image);
-    const alp_image_info info = alp_image_get_info(image);
-    const uint8_t *bytes = alp_image_pixels(image);
-    double place[2];
-    for (int k = 0; k < 2; k++) {
-        const float *row = t->transform[k];
-        place[k] = (double)row[0] * uv[0] + (double)row[1] * uv[1] + (double)row[2];
-    }
-    const double x = place[0] * info.width - 0.5, y = place[1] * info.height - 0.5;
-    const int64_t x0 = (int64_t)floor(x), y0 = (int64_t)floor(y);
-    for (int c = 0; c < 4; c++) {
-        rgba[c] = 0.0;
-        for (int corner = 0; corner < 4; corner++) {
-            const int right = corner & 1, down = corner >> 1;
-            const int64_t px = wrap(x0 + right, info.width, t->wrap_u);
-            const int64_t py = wrap(y0 + down, info.height, t->wrap_v);
-            const double wx = x - floor(x), wy = y - floor(y);
-            const double byte = bytes[4 * (py * info.width + px) + c] / 255.0;
-            rgba[c] += (right ? wx : 1.0 - wx) * (down ? wy : 1.0 - wy) *
-                       (srgb && c < 3 ? decode(byte) : byte);
-        }
-    }
-}
-
-/// The formulas of geometry.h: albedo in three channels, and alpha.
-static void shade(const alp_scene *scene, uint32_t triangle, double b1, double b2, double rgba[4])
-{
-    const alp_geometry g = alp_scene_get_geometry(scene);
-    const alp_surface_info surface = alp_scene_get_surface(scene, g.triangle_surfaces[triangle]);
-    const alp_material_info m = alp_scene_get_material(scene, surface.material_index);
-    const double shares[3] = {1.0 - b1 - b2, b1, b2};
-    double uv[2] = {0.0, 0.0}, vertex[4] = {0.0, 0.0, 0.0, 0.0}, texel[4] = {1.0, 1.0, 1.0, 1.0};
-    for (int k = 0; k < 3; k++) {
-        const uint32_t v = g.triangles[triangle][k];
-        for (int i = 0; i < 2 && g.uvs[m.base_color_texture.uv_slot] != NULL; i++) {
-            uv[i] += shares[k] * (double)g.uvs[m.base_color_texture.uv_slot][v][i];
-        }
-        for (int i = 0; i < 4; i++) {
-            vertex[i] += shares[k] * (g.colors != NULL ? (double)g.colors[v][i] : 1.0);
-        }
-    }
-    if (m.base_color_texture.image != ALP_NONE) {
-        sample(scene, &m.base_color_texture, uv, true, texel);
-    }
-    for (int i = 0; i < 4; i++) {
-        rgba[i] = (double)m.base_color[i] * vertex[i] * texel[i];
-        rgba[i] = i < 3 ? fmin(fmax(rgba[i], 0.0), 0.95) : rgba[i];
-    }
-}
+#include <stdio.h>
 
 static void check_albedo(const alp_scene *scene)
 {
@@ -88,7 +15,7 @@ static void check_albedo(const alp_scene *scene)
         for (int i = 0; i < 25; i++) {
             const double b1 = 0.05 + 0.18 * (i % 5), b2 = (0.95 - b1) * (i / 5) / 4.0;
             double rgba[4];
-            shade(scene, t, b1, b2, rgba);
+            host_shade(scene, t, b1, b2, rgba);
             const vec3 albedo = alpi_surface_albedo(scene, t, (float)b1, (float)b2);
             ASSERT_NEAR(rgba[0], albedo.x, 2e-5);
             ASSERT_NEAR(rgba[1], albedo.y, 2e-5);
@@ -207,6 +134,104 @@ TEST_WITH_CONTEXT(nothing_is_described_by_defaults, 1)
         ASSERT_NEAR(others[i].base_color[0], 0.5, 0.0); // the albedo without a material
         assert_int_equal(others[i].base_color_texture.image, ALP_NONE);
         assert_int_equal(others[i].alpha_mode, ALP_ALPHA_OPAQUE);
+    }
+    alp_scene_destroy(scene);
+}
+
+// --- a textured material -------------------------------------------------------------------------
+
+TEST_WITH_CONTEXT(a_textured_material_is_shaded_as_the_library_does, 1)
+{
+    static const char *const textures[] = {
+        "'index':0", "'index':2,'texCoord':1",
+        "'index':0,'extensions':{'KHR_texture_transform':{'offset':[-0.7,0.4],'scale':[2.5,-3],"
+        "'rotation':0.6,'texCoord':1}}"};
+    for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
+        char material[1024];
+        snprintf(material, sizeof material,
+                 "{'name':'m','alphaMode':'MASK','alphaCutoff':0.3,'pbrMetallicRoughness':{"
+                 "'metallicFactor':0,'baseColorFactor':[1,0.5,0.25,0.75],'baseColorTexture':{%s}}}",
+                 textures[i]);
+        alp_scene *scene = drawn_asset(context, material);
+        const alp_material_info m = alp_scene_get_material(scene, 0);
+        assert_string_equal(m.name, "m");
+        assert_int_equal(m.alpha_mode, ALP_ALPHA_MASK);
+        ASSERT_NEAR(m.alpha_cutoff, 0.3, 1e-7);
+        assert_non_null(alp_scene_get_geometry(scene).colors);
+        assert_int_equal(alp_scene_get_surface(scene, 0).uv_slots, 3);
+        check_albedo(scene);
+        alp_scene_destroy(scene);
+    }
+}
+
+TEST_WITH_CONTEXT(a_blended_texture_is_weighed_by_the_normal, 1)
+{
+    static const float axes[3][3] = {{0, 2, 0.5f}, {-3, 0, 0}, {0, -0.5f, 0.75f}};
+    alp_scene *scene = drawn_asset(context, "{'pbrMetallicRoughness':{'metallicFactor':0,"
+                                            "'baseColorTexture':{'index':2}}}");
+    alpi_texture *texture = &scene->materials[0].base_color_texture;
+    for (int v = 0; v < 4; v++) {
+        const vec3 n = {0.3f * (float)v, 0.5f, 1.0f - 0.4f * (float)v};
+        vec3_store(scene->normals[v], vec3_normalize_or(n, n));
+    }
+    texture->blended = true;
+    texture->slots[1] = 1;
+    memcpy(scene->surfaces[0].axes, axes, sizeof axes);
+    check_albedo(scene);
+    memset(scene->surfaces[0].axes, 0, sizeof axes); // the world's
+    check_albedo(scene);
+    texture->slots[2] = 4; // which the square lacks
+    check_albedo(scene);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(each_texture_comes_with_its_factor, 1)
+{
+    alp_scene *scene = drawn_asset(
+        context,
+        "{'doubleSided':true,'alphaMode':'BLEND','emissiveFactor':[0.5,1,0.25],"
+        "'emissiveTexture':{'index':0},'occlusionTexture':{'index':2,'strength':0.5,'texCoord':1},"
+        "'pbrMetallicRoughness':{'metallicFactor':0.125,'metallicRoughnessTexture':{'index':2}},"
+        "'extensions':{'KHR_materials_emissive_strength':{'emissiveStrength':8},"
+        "'KHR_materials_transmission':{'transmissionFactor':0.75,'transmissionTexture':{"
+        "'index':0}}}}");
+    const alp_material_info m = alp_scene_get_material(scene, 0);
+    assert_true(m.double_sided);
+    assert_int_equal(m.alpha_mode, ALP_ALPHA_BLEND);
+    ASSERT_NEAR(m.emission[0], 4.0, 0.0);
+    ASSERT_NEAR(m.emission[1], 8.0, 0.0);
+    ASSERT_NEAR(m.metallic, 0.125, 0.0);
+    ASSERT_NEAR(m.occlusion_strength, 0.5, 0.0);
+    ASSERT_NEAR(m.transmission, 0.75, 0.0);
+    assert_int_equal(m.base_color_texture.image, ALP_NONE);
+    assert_int_equal(m.normal_texture.image, ALP_NONE);
+    ASSERT_NEAR(m.normal_scale, 1.0, 0.0);
+    assert_int_equal(m.emission_texture.image, DRAWN_IMAGE);
+    assert_int_equal(m.emission_texture.wrap_u, ALP_WRAP_CLAMP);
+    assert_int_equal(m.emission_texture.wrap_v, ALP_WRAP_MIRROR);
+    assert_int_equal(m.metallic_texture.image, DRAWN_SAME);
+    assert_int_equal(m.metallic_texture.wrap_u, ALP_WRAP_REPEAT);
+    assert_int_equal(m.occlusion_texture.uv_slot, 1);
+    assert_int_equal(m.transmission_texture.image, DRAWN_IMAGE);
+    const alp_image *image = alp_scene_get_image(scene, DRAWN_IMAGE);
+    assert_non_null(image);
+    assert_int_equal(alp_image_get_info(image).width, DRAWN_WIDTH);
+    assert_int_equal(((const uint8_t *)alp_image_pixels(image))[1], 90); // 83 + 7
+    assert_null(alp_scene_get_image(scene, DRAWN_BROKEN));               // nothing reads it
+    assert_null(alp_scene_get_image(scene, DRAWN_IMAGE_COUNT));
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(axes_are_those_of_the_node, 1)
+{
+    alp_scene *scene = drawn_asset(context, "{}");
+    alpi_surface *surface = &scene->surfaces[0];
+    const float turned[3][3] = {{0, 2, 0}, {-3, 0, 0}, {0, 0, 4}};
+    memcpy(surface->axes, turned, sizeof turned);
+    assert_memory_equal(alp_scene_get_surface(scene, 0).axes, turned, sizeof turned);
+    memset(surface->axes, 0, sizeof surface->axes); // of a skin: the world's
+    for (int k = 0; k < 9; k++) {
+        ASSERT_NEAR(alp_scene_get_surface(scene, 0).axes[k / 3][k % 3], k % 4 == 0, 0.0);
     }
     alp_scene_destroy(scene);
 }

@@ -6,6 +6,7 @@
 #include "picture.h"
 #include "render/camera_rays.h"
 #include "scene/scene.h"
+#include "test_shadows.h"
 #include "trace/trace.h"
 
 #include <stdio.h>
@@ -53,7 +54,7 @@ static void trace_triangles(const alp_scene *scene, const alp_render_options *o,
     alpi_tracer *tracer = NULL;
     alpi_view view;
     alpi_rays rays;
-    const alpi_trace_filter filter = {.panes = o->method == ALP_RENDER_LIGHTMAP};
+    const alpi_trace_filter filter = {.panes = o->method != ALP_RENDER_ALBEDO};
     ASSERT_OK(scene->context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     ASSERT_OK(scene->context, alpi_view_place(scene->context, camera, o->width, o->height, &view));
     view.centred = true;
@@ -98,13 +99,46 @@ static void compare_triangles(const alp_scene *scene, const alp_render_options *
     free(traced);
 }
 
+/// Whether the pixels around one have its value.
+static bool is_even(const uint32_t *values, uint32_t x, uint32_t y, const alp_render_options *o)
+{
+    for (uint32_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < o->height; row++) {
+        for (uint32_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < o->width; column++) {
+            if (values[(size_t)row * o->width + column] != values[(size_t)y * o->width + x]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Takes out pixels near the edge of a shadow: around them other lights arrive.
+static void compare_shadows(const alp_scene *scene, const alp_render_options *o,
+                            const alp_camera *camera, test_pair *pair)
+{
+    const uint32_t count = o->width * o->height;
+    uint32_t *reached = malloc(count * sizeof *reached), alike = 0;
+    assert_non_null(reached);
+    test_shadows_trace(scene, o, camera, reached);
+    for (uint32_t i = 0; i < count; i++) {
+        pair->alike[i] = pair->alike[i] && is_even(reached, i % o->width, i / o->width, o);
+        alike += pair->alike[i] ? 1 : 0;
+    }
+    pair->alike_share = (double)alike / (double)count;
+    free(reached);
+}
+
 // --- both pictures -------------------------------------------------------------------------------
 
-static const view_mode *mode_of(alp_render_method method)
+static const view_mode *mode_of(const alp_render_options *o)
 {
     command_line line = {.command = COMMAND_VIEW};
-    enum { ALBEDO = 1, LIGHTMAP = 2 }; // choices of --with
-    line.values[OPTION_WITH].choice = method == ALP_RENDER_ALBEDO ? ALBEDO : LIGHTMAP;
+    enum { ALBEDO = 1, LIGHTMAP, DIRECT, AMBIENT }; // choices of --with
+    const alp_ambient_info info = alp_field_get_ambient(o->field);
+    line.values[OPTION_WITH].choice = o->method == ALP_RENDER_ALBEDO     ? ALBEDO
+                                      : o->method == ALP_RENDER_LIGHTMAP ? LIGHTMAP
+                                      : info.color_count == 0            ? DIRECT
+                                                              : AMBIENT + (int)info.model;
     return view_mode_of(&line);
 }
 
@@ -112,10 +146,11 @@ static void draw(const alp_scene *scene, const alp_render_options *o, const alp_
                  alp_film_options film, test_pair *pair)
 {
     const drawing_options options = {.context = scene->context,
-                                     .mode = mode_of(o->method),
+                                     .mode = mode_of(o),
                                      .lighting = &o->lighting,
                                      .width = o->width,
                                      .height = o->height,
+                                     .direct = !o->without_direct,
                                      .metals_black = scene->metals_black,
                                      .level_zero = true};
     drawing d;
@@ -126,12 +161,18 @@ static void draw(const alp_scene *scene, const alp_render_options *o, const alp_
         assert_int_equal(
             gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &d.light.lightmap), EXIT_DONE);
     }
+    if (o->field != NULL) {
+        gl_ambient_create(o->field, &d.light.ambient);
+    }
     drawing_draw(&d, camera);
     ASSERT_OK(scene->context,
               drawing_develop(&d, scene->context, &film, &pair->drawn, &pair->drawn_light));
     picture_read_triangles(&d.targets, triangles);
     test_gl_check();
     compare_triangles(scene, o, camera, triangles, pair);
+    if (o->field != NULL) {
+        compare_shadows(scene, o, camera, pair);
+    }
     free(triangles);
     drawing_destroy(&d);
     test_gl_check();

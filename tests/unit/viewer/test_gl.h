@@ -20,13 +20,15 @@ typedef struct test_pair {
     alp_image *drawn, *rendered;             // 8-bit RGB
     alp_image *drawn_light, *rendered_light; // float RGBA
     uint32_t width, height;
-    bool *alike; // [height][width] both see the same triangles in the 3 × 3 pixels around
+    /// [height][width] Both see the same triangles in the 3 × 3 pixels around. Of FIELD also: the
+    /// same lights reach these pixels by rays, so that no edge of a shadow is near.
+    bool *alike;
     double alike_share;
 } test_pair;
 
 /// Draws and renders.
-/// @param options method ALBEDO or LIGHTMAP, whose lightmap is baked already; the viewer's mode is
-///        that of the method
+/// @param options method ALBEDO, LIGHTMAP, whose lightmap is baked already, or FIELD; the viewer's
+///        mode is that of the method. That of fields which are no ambient model is direct.
 test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options);
 void test_pair_destroy(test_pair *pair);
 

@@ -248,3 +248,39 @@ TEST_WITH_CONTEXT(refused, 1)
     assert_true(test_log_has("material-range"));
     alp_scene_destroy(scene);
 }
+
+TEST_WITH_CONTEXT(normal_maps_are_read_when_they_are_asked_for, 1)
+{
+    const char *folder = test_folder();
+    write_png(context, test_path(folder, "a.png"));
+    write_png(context, test_path(folder, "n.png"));
+    alp_scene *scene = read_with(
+        context, folder,
+        "newmtl a\nmap_Kd a.png\nnorm -s 2 2 1 n.png\nnewmtl b\nmap_Kd a.png\nmap_Bump n.png\n"
+        "newmtl c\nnorm absent.png\nnewmtl d\nnorm ../n.png\nnewmtl e\nnorm a.png\n",
+        "mtllib a.mtl\nusemtl a\n" TRIANGLE "usemtl b\nf 1/1 2/2 3/2\nusemtl c\nf 1/1 2/2 3/2\n"
+        "usemtl d\nf 1/1 2/2 3/2\nusemtl e\nf 1/1 2/2 3/2\n");
+    assert_false(test_log_has("image"));
+    const alp_texture_info normal = alp_scene_get_material(scene, 0).normal_texture;
+    assert_int_equal(normal.image, 1);
+    ASSERT_NEAR(normal.transform[0][0], 2.0, 0.0);
+    assert_int_equal(alp_scene_get_material(scene, 1).normal_texture.image, ALP_NONE);
+    assert_non_null(alp_scene_get_image(scene, 0));
+    assert_null(alp_scene_get_image(scene, 1));
+    ASSERT_OK(context, alp_scene_load_normal_maps(scene));
+    const alp_image *image = alp_scene_get_image(scene, 1);
+    assert_non_null(image);
+    assert_int_equal(((const uint8_t *)alp_image_pixels(image))[0], 255);
+    assert_null(alp_scene_get_image(scene, alp_scene_get_material(scene, 2).normal_texture.image));
+    assert_non_null(strstr(test_log_text(), "absent.png"));
+    assert_non_null(strstr(test_log_text(), "image d: ")); // outside the folder
+    assert_null(strstr(test_log_text(), "image a: "));
+    assert_int_equal(alp_scene_get_material(scene, 4).normal_texture.image,
+                     0); // light reads it too
+    alp_scene *simple = NULL;
+    ASSERT_OK(context, alp_scene_simplify(scene, 0.01f, &simple));
+    ASSERT_OK(context, alp_scene_load_normal_maps(simple));
+    assert_null(alp_scene_get_image(simple, 1));
+    alp_scene_destroy(simple);
+    alp_scene_destroy(scene);
+}
