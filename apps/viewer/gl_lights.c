@@ -85,8 +85,8 @@ static alp_light_info info_of_sun(const alp_sun_options *sun)
 static light_list list_lights(const alp_scene *scene, const alp_lighting_options *o)
 {
     const uint32_t own = alp_scene_get_info(scene).lights;
-    light_list list = {.lights = allocate_or_exit(NULL, ((size_t)own + o->lamp_count + 1) *
-                                                            sizeof *list.lights)};
+    light_list list = {
+        .lights = allocate_or_exit(NULL, ((size_t)own + o->lamp_count + 1) * sizeof *list.lights)};
     for (uint32_t i = 0; i < own; i++) {
         const alp_light_info light = alp_scene_get_light(scene, i);
         add(&list, &light);
@@ -114,16 +114,16 @@ static uint32_t views_of(const alp_light_info *l)
 static shader_light pack_light(const alp_light_info *l, uint32_t first)
 {
     const double outer = cos((double)l->outer_cone), inner = cos((double)l->inner_cone);
-    shader_light s = {.position = {l->position[0], l->position[1], l->position[2],
-                                   isfinite(l->range) ? 1.0f / l->range : 0.0f},
-                      .direction = {l->direction[0], l->direction[1], l->direction[2],
-                                    (float)outer},
-                      .color = {[3] = (float)(1.0 / fmax(0.001, inner - outer))},
-                      .kind = is_sun(l)                     ? LIGHT_SUN
-                              : l->kind == ALP_LIGHT_SPOT ? LIGHT_SPOT
-                                                          : LIGHT_POINT,
-                      .first = first,
-                      .views = views_of(l)};
+    shader_light s = {
+        .position = {l->position[0], l->position[1], l->position[2],
+                     isfinite(l->range) ? 1.0f / l->range : 0.0f},
+        .direction = {l->direction[0], l->direction[1], l->direction[2], (float)outer},
+        .color = {[3] = (float)(1.0 / fmax(0.001, inner - outer))},
+        .kind = is_sun(l)                   ? LIGHT_SUN
+                : l->kind == ALP_LIGHT_SPOT ? LIGHT_SPOT
+                                            : LIGHT_POINT,
+        .first = first,
+        .views = views_of(l)};
     for (int k = 0; k < 3; k++) {
         s.color[k] = l->intensity * l->color[k];
     }
@@ -162,10 +162,10 @@ static uint32_t make_maps(GLuint *maps, uint32_t layers, uint32_t side)
 static camera_view view_of(const alp_scene_info *info, const alp_light_info *l, int face,
                            uint32_t side)
 {
-    return is_sun(l)            ? light_view_of_sun(info, l->direction, side)
-           : views_of(l) == 1 ? light_view_of_cone(info, l->position, l->direction,
-                                                     (double)l->outer_cone, side)
-                                : light_view_of_face(info, l->position, face, side);
+    return is_sun(l) ? light_view_of_sun(info, l->direction, side)
+           : views_of(l) == 1
+               ? light_view_of_cone(info, l->position, l->direction, (double)l->outer_cone, side)
+               : light_view_of_face(info, l->position, face, side);
 }
 
 static shader_view pack_view(const gl_shadow_view *v)

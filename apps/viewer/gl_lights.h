@@ -17,10 +17,10 @@ typedef struct gl_shadow_view {
 } gl_shadow_view;
 
 typedef struct gl_lights {
-    GLuint lights, views;            // BUFFER_LIGHTS, BUFFER_SHADOW_VIEWS
+    GLuint lights, views;             // BUFFER_LIGHTS, BUFFER_SHADOW_VIEWS
     GLuint sun_shadows, lamp_shadows; // arrays of 32-bit float depth, compared bilinearly
-    uint32_t count;                  // lights
-    gl_shadow_view *shadow_views;    // [view_count]
+    uint32_t count;                   // lights
+    gl_shadow_view *shadow_views;     // [view_count]
     uint32_t view_count;
 } gl_lights;
 
@@ -28,7 +28,8 @@ typedef struct gl_lights {
 /// the scene. A point light has six maps, and so has a spot light wider than 120 degrees; others
 /// have one. The maps are smaller where lights are many.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; gl_lights_destroy in both cases
-int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lighting, gl_lights *lights);
+int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lighting,
+                     gl_lights *lights);
 void gl_lights_destroy(gl_lights *lights);
 /// Binds buffers and maps, and sets the uniform of the current program. Without lights: none.
 void gl_lights_bind(const gl_lights *lights);

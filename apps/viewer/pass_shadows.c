@@ -6,7 +6,8 @@
 
 int pass_shadows_create(pass_shadows *pass)
 {
-    *pass = (pass_shadows){.program = gl_program_create(&shader_surfaces_vert, &shader_shadow_frag)};
+    *pass =
+        (pass_shadows){.program = gl_program_create(&shader_surfaces_vert, &shader_shadow_frag)};
     glCreateFramebuffers(1, &pass->frame);
     glNamedFramebufferDrawBuffer(pass->frame, GL_NONE);
     return pass->program != 0 ? EXIT_DONE : EXIT_FAILED;
@@ -36,6 +37,6 @@ void pass_shadows_draw(const pass_shadows *pass, const gl_scene *scene, const gl
         glClearNamedFramebufferfv(pass->frame, GL_DEPTH, 0, &far);
         glViewport(0, 0, (GLsizei)v->view.width, (GLsizei)v->view.height);
         camera_view_bind(&v->view);
-        gl_scene_draw(scene);
+        gl_scene_draw(scene, GL_SCENE_ALL);
     }
 }

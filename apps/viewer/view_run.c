@@ -51,9 +51,8 @@ static int prepare(view_job *job)
                                      .lighting = &v->render.lighting,
                                      .width = v->render.width,
                                      .height = v->render.height,
-                                     .direct =
-                                         (v->mode->uses & USES_SWITCH) == 0 ||
-                                         job->arguments->values[OPTION_DIRECT].choice == 1,
+                                     .direct = (v->mode->uses & USES_SWITCH) == 0 ||
+                                               job->arguments->values[OPTION_DIRECT].choice == 1,
                                      .metals_black =
                                          job->arguments->values[OPTION_METALS].choice == 1};
     v->render.progress = session_progress;

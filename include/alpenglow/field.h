@@ -83,8 +83,8 @@ ALP_API ALP_NODISCARD alp_result alp_field_create_ambient(const alp_scene *scene
 typedef struct alp_ambient_info {
     alp_ambient_model model;
     uint32_t color_count; ///< of `colors`: 1, 2, 3, 6 or 9, in the order of the models
-    /// CONSTANT: c. HEMISPHERE: up, down. GROUND_MAP: up, down, s. CUBE: c(+x), c(−x), c(+y), c(−y),
-    /// c(+z), c(−z). ENVIRONMENT: c_lm at index l (l + 1) + m (alpenglow/sh.h).
+    /// CONSTANT: c. HEMISPHERE: up, down. GROUND_MAP: up, down, s. CUBE: c(+x), c(−x), c(+y),
+    /// c(−y), c(+z), c(−z). ENVIRONMENT: c_lm at index l (l + 1) + m (alpenglow/sh.h).
     float colors[ALP_AMBIENT_COLORS][3];
     /// GROUND_MAP, else NULL: [ALP_GROUND_MAP_SIDE][ALP_GROUND_MAP_SIDE] texels of g by row and
     /// column [W·m⁻²], valid while the field lives. g(x, z) is bilinear between the centres of

@@ -62,8 +62,8 @@ static alp_scene *load_strips(alp_context *context)
                    "{'mesh':0,'translation':[0,0,-1],'scale':[%d,1,1]}",
                    STRIPS);
     for (int i = 0; i < STRIPS; i++) {
-        at += snprintf(text + at, (size_t)(SIZE - at), ",{'mesh':%d,'translation':[%d,0,0]}",
-                       i + 1, i);
+        at += snprintf(text + at, (size_t)(SIZE - at), ",{'mesh':%d,'translation':[%d,0,0]}", i + 1,
+                       i);
     }
     snprintf(text + at, (size_t)(SIZE - at), "]}");
     size_t size = 0;
