@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a flight.
+#include "ambience/flight.h"
+#include "output.h"
+#include "picture.h"
+#include "view_job.h"
+#include "views.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct flight_job {
+    view_job *view;
+    flight path;
+    uint64_t count; // frames
+    double step;    // seconds from one to the next
+    alp_film_adaptation adaptation;
+} flight_job;
+
+/// Develops a frame. Automatic exposure adapts over the frames.
+/// @param seconds since the frame before   @param exposure out: EV
+static alp_result develop(flight_job *job, double seconds, alp_image **developed, double *exposure)
+{
+    const drawing *d = &job->view->drawing;
+    alp_context *context = job->view->session.context;
+    alp_film_options film = job->view->settings.film;
+    alp_image *light = NULL;
+    alp_result result = picture_read_light(context, &d->targets, &light);
+    if (result == ALP_OK && film.auto_exposure) {
+        result = alp_film_adapt(&job->adaptation, light, &film, seconds, &film.exposure);
+        film.auto_exposure = false;
+    }
+    alp_image_destroy(light);
+    if (result == ALP_OK) {
+        result = drawing_develop(d, context, &film, developed, NULL);
+    }
+    *exposure = film.exposure;
+    return result;
+}
+
+static int draw_frame(flight_job *job, uint64_t frame, const char *file)
+{
+    view_job *view = job->view;
+    const flight_camera at =
+        flight_at(&job->path, flight_start(&job->path) + job->step * (double)frame);
+    const alp_camera camera = flight_view(&at);
+    alp_image *developed = NULL;
+    double exposure = 0.0;
+    drawing_draw(&view->drawing, &camera);
+    const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
+                                      : session_end(&view->session, result);
+    alp_image_destroy(developed);
+    return code;
+}
+
+/// Draws a frame unless Ctrl-C has stopped the flight, or its file is there.
+static int go_on(flight_job *job, uint64_t frame)
+{
+    const option_value *v = job->view->arguments->values;
+    const alp_progress progress = {
+        .stage = "draw", .done = frame, .total = job->count, .seconds_left = -1.0};
+    char name[32];
+    if (!session_progress(&job->view->session, &progress)) {
+        return session_end(&job->view->session, ALP_ERROR_CANCELLED);
+    }
+    snprintf(name, sizeof name, "frame_%04llu", (unsigned long long)frame + 1);
+    char *file = pictures_path(v[OPTION_PICTURES].text, name);
+    int code = output_check(file, v[OPTION_FORCE].given);
+    code = code == EXIT_DONE ? draw_frame(job, frame, file) : code;
+    free(file);
+    return code;
+}
+
+static int draw_frames(flight_job *job)
+{
+    const double start = clock_seconds();
+    const double length = flight_end(&job->path) - flight_start(&job->path);
+    job->step = job->count > 1 ? length / (double)(job->count - 1) : 0.0;
+    int code = pictures_folder(job->view->arguments->values[OPTION_PICTURES].text);
+    for (uint64_t i = 0; i < job->count && code == EXIT_DONE; i++) {
+        code = go_on(job, i);
+    }
+    progress_clear(&job->view->session.progress);
+    if (code == EXIT_DONE) {
+        char what[64];
+        snprintf(what, sizeof what, "%llu pictures", (unsigned long long)job->count);
+        view_print_done(job->view, what, clock_seconds() - start);
+    }
+    return code;
+}
+
+int view_flight(view_job *view)
+{
+    const option_value *v = view->arguments->values;
+    const alp_scene_info info = alp_scene_get_info(view->session.scene);
+    flight_job job = {
+        .view = view, .count = v[OPTION_FRAMES].whole, .adaptation = alp_film_adaptation_default()};
+    int code = flight_read(v[OPTION_PATH].text, info.origin, &job.path);
+    code = code == EXIT_DONE ? draw_frames(&job) : code;
+    flight_clear(&job.path);
+    return code;
+}
