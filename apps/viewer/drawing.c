@@ -53,14 +53,15 @@ void drawing_draw(const drawing *d, const alp_camera *camera)
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const gl_targets *t = &d->targets;
     const camera_view view = camera_view_of(camera, t->width, t->height, &info);
-    const bool panes = d->drawn.has_panes && (d->surfaces.mode->uses & USES_PANES) != 0;
-    const uint32_t limit = panes ? LAYER_LIMIT : 1;
+    const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
     pass_layers_clear(t);
-    while (layer < limit &&
-           pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
-        pass_layers_add(&d->layers, t, layer++);
+    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, &view, t);
+    while (panes && layer < LAYER_LIMIT &&
+           pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
+        pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
+    pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
     pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
 }
 

@@ -26,7 +26,7 @@ typedef struct drawing_options {
     const view_mode *mode;
     const alp_lighting_options *lighting;
     uint32_t width, height;
-    bool direct; // lamps and suns shine, if the mode adds them to other light
+    bool direct; // lamps and suns shine, in modes that have their light
     bool metals_black;
     bool level_zero; // textures are read bilinearly without mip levels, as by render
 } drawing_options;

@@ -30,7 +30,8 @@
 #define TEXTURE_PICTURE 10
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
-#define TEXTURE_DEPTH 13
+#define TEXTURE_DEPTH 13        // of the layer before
+#define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
 
@@ -50,7 +51,7 @@
 #define UNIFORM_AXES 12      // vec3 [3] of the surface's object
 #define UNIFORM_MAP_SETS 15  // uint, coordinate sets of the light map: 1, or 3 that are blended
 #define UNIFORM_MAP_EQUAL 16 // bool, whether sets that count have equal weight
-#define UNIFORM_PEELED 17    // bool, whether only what lies behind TEXTURE_DEPTH is drawn
+#define UNIFORM_PEELED 17    // int, of PEEL_...
 #define UNIFORM_LIGHTS 18    // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19   // int, an alp_ambient_model
 // Of pass_maps.
@@ -73,6 +74,11 @@
 #define LIGHT_POINT 0
 #define LIGHT_SPOT 1
 #define LIGHT_SUN 2
+
+// Fragments that are left out: those that do not lie behind TEXTURE_DEPTH, and those that lie
+// behind TEXTURE_OPAQUE_DEPTH.
+#define PEEL_BEHIND 1
+#define PEEL_BEFORE 2
 
 // Kinds of sky.
 #define SKY_NONE 0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # without OpenGL 4.5, and without any EGL, one line says what was found
 . "$(dirname "$0")/gl.bash"
-alpenglow view builtin:cornell --with none --resolution 1x1 -o mesa.png | grep -q llvmpipe || {
+alpenglow view builtin:cornell --with none --resolution 1x1 -o mesa.png | grep llvmpipe >renderer || {
     echo "skipped: not Mesa, whose version can be set" >&2
     exit 77
 }
