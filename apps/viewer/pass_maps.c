@@ -65,5 +65,5 @@ void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_light
     glUniform1ui(UNIFORM_MAP_LIGHT, light);
     glUniform1i(UNIFORM_METALS, metals_black);
     glUniform1i(UNIFORM_PEELED, 0);
-    gl_scene_draw(scene);
+    gl_scene_draw(scene, GL_SCENE_ALL);
 }
