@@ -4,16 +4,21 @@
 #include "options/options.h"
 #include "picture.h"
 
+/// More panes than any eye sees through.
+enum { LAYER_LIMIT = 4096 };
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
+    const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
     *d = (drawing){.scene = scene};
     int code = gl_targets_create(o->width, o->height, &d->targets);
     if (code == EXIT_DONE) {
         code = pass_surfaces_create(o->mode, o->metals_black, &d->surfaces);
     }
-    if (code == EXIT_DONE && (o->mode->uses & USES_BACKGROUND) != 0) {
-        code = pass_background_create(o->lighting, &d->background);
+    if (code == EXIT_DONE) {
+        code = pass_background_create(o->context, scene, open ? o->lighting : NULL, &d->background);
     }
+    code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
     return code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
 }
@@ -23,6 +28,7 @@ void drawing_destroy(drawing *d)
     mode_light_destroy(&d->light);
     gl_scene_destroy(&d->drawn);
     pass_film_destroy(&d->film);
+    pass_layers_destroy(&d->layers);
     pass_background_destroy(&d->background);
     pass_surfaces_destroy(&d->surfaces);
     gl_targets_destroy(&d->targets);
@@ -31,9 +37,17 @@ void drawing_destroy(drawing *d)
 void drawing_draw(const drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
-    const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
-    pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, &view, &d->targets);
-    pass_background_draw(&d->background, &view);
+    const gl_targets *t = &d->targets;
+    const camera_view view = camera_view_of(camera, t->width, t->height, &info);
+    const bool panes = d->drawn.has_panes && (d->surfaces.mode->uses & USES_PANES) != 0;
+    const uint32_t limit = panes ? LAYER_LIMIT : 1;
+    uint32_t layer = 0;
+    pass_layers_clear(t);
+    while (layer < limit &&
+           pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
+        pass_layers_add(&d->layers, t, layer++);
+    }
+    pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
 }
 
 alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,

@@ -5,6 +5,7 @@
 
 #include "pass_background.h"
 #include "pass_film.h"
+#include "pass_layers.h"
 #include "pass_surfaces.h"
 
 typedef struct drawing {
@@ -12,12 +13,14 @@ typedef struct drawing {
     gl_targets targets;
     gl_scene drawn;
     pass_surfaces surfaces;
+    pass_layers layers;
     pass_background background;
     pass_film film;
     mode_light light; // of the mode; the caller fills it
 } drawing;
 
 typedef struct drawing_options {
+    alp_context *context; // of the scene
     const view_mode *mode;
     const alp_lighting_options *lighting;
     uint32_t width, height;

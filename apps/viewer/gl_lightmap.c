@@ -86,9 +86,11 @@ int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp
 
 void gl_lightmap_destroy(gl_lightmap *d)
 {
-    glDeleteTextures(1, &d->pages);
-    glDeleteBuffers(1, &d->uvs);
-    glDeleteBuffers(1, &d->triangles);
+    if (d->pages != 0) { // else there may be no context either
+        glDeleteTextures(1, &d->pages);
+        glDeleteBuffers(1, &d->uvs);
+        glDeleteBuffers(1, &d->triangles);
+    }
     *d = (gl_lightmap){0};
 }
 

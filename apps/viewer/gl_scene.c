@@ -145,6 +145,7 @@ static int load_material(gl_scene *d, const alp_scene *scene, uint32_t index,
                           .alpha_mode = (uint32_t)m.alpha_mode,
                           .flags = (m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u) |
                                    (index < d->material_count ? MATERIAL_EXISTS : 0u)};
+    d->has_panes = d->has_panes || m.alpha_mode == ALP_ALPHA_BLEND || m.transmission > 0.0f;
     memcpy(out->base_color, m.base_color, sizeof out->base_color);
     for (int i = 0; i < TEXTURE_USES; i++) {
         const alp_texture_info *t = uses[i];
@@ -199,7 +200,10 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, gl_scene *d)
 
 void gl_scene_destroy(gl_scene *d)
 {
-    for (uint32_t i = 0; i < d->image_count; i++) {
+    if (d->array == 0) {
+        return;
+    }
+    for (uint32_t i = 0; i < d->image_count && d->textures != NULL; i++) {
         glDeleteTextures(GL_ENCODINGS, d->textures[i]); // leaves out 0
     }
     glDeleteTextures(1, &d->white);

@@ -33,6 +33,7 @@ typedef struct gl_scene {
     GLuint buffers[GL_SCENE_BUFFERS]; // at BUFFER_…
     uint32_t vertex_count;
     bool colored;         // vertices have colours
+    bool has_panes;       // light goes through some material
     gl_surface *surfaces; // [surface_count]
     uint32_t surface_count;
     gl_material *materials; // [material_count + 1]; the last is that of no material

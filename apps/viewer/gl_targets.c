@@ -14,14 +14,59 @@ static GLuint make_target(GLenum format, const gl_targets *t)
     return texture;
 }
 
-static bool is_complete(GLuint frame)
+/// A frame of up to three colours. @param depth 0 = none
+static GLuint make_frame(const GLuint *colors, int count, GLuint depth)
 {
-    return glCheckNamedFramebufferStatus(frame, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    static const GLenum drawn[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1,
+                                   GL_COLOR_ATTACHMENT2};
+    GLuint frame = 0;
+    glCreateFramebuffers(1, &frame);
+    for (int i = 0; i < count; i++) {
+        glNamedFramebufferTexture(frame, drawn[i], colors[i], 0);
+    }
+    if (depth != 0) {
+        glNamedFramebufferTexture(frame, GL_DEPTH_ATTACHMENT, depth, 0);
+    }
+    glNamedFramebufferDrawBuffers(frame, count, drawn);
+    return frame;
+}
+
+static void make_textures(gl_targets *t)
+{
+    t->layer_light = make_target(GL_RGBA32F, t);
+    t->layer_through = make_target(GL_RGBA32F, t);
+    t->triangles = make_target(GL_R32UI, t);
+    t->sum = make_target(GL_RGBA32F, t);
+    t->light = make_target(GL_RGBA32F, t);
+    t->developed = make_target(GL_RGBA8, t);
+    for (int i = 0; i < 2; i++) {
+        t->depths[i] = make_target(GL_DEPTH_COMPONENT32F, t);
+        t->lefts[i] = make_target(GL_RGBA32F, t);
+    }
+}
+
+/// @return whether all can be drawn into
+static bool make_frames(gl_targets *t)
+{
+    const GLuint layer[] = {t->layer_light, t->triangles, t->layer_through};
+    for (int i = 0; i < 2; i++) {
+        t->layer_frames[i] = make_frame(layer, 3, t->depths[i]);
+        t->sum_frames[i] = make_frame((const GLuint[]){t->sum, t->lefts[i]}, 2, 0);
+    }
+    t->light_frame = make_frame(&t->light, 1, 0);
+    t->developed_frame = make_frame(&t->developed, 1, 0);
+    const GLuint all[] = {t->layer_frames[0], t->layer_frames[1], t->sum_frames[0],
+                          t->sum_frames[1],   t->light_frame,     t->developed_frame};
+    bool complete = true;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        complete = complete &&
+                   glCheckNamedFramebufferStatus(all[i], GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    }
+    return complete;
 }
 
 int gl_targets_create(uint32_t width, uint32_t height, gl_targets *t)
 {
-    static const GLenum drawn[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
     GLint most = 0;
     char text[128];
     *t = (gl_targets){.width = width, .height = height};
@@ -32,27 +77,27 @@ int gl_targets_create(uint32_t width, uint32_t height, gl_targets *t)
                  height, most);
         return failure(text);
     }
-    t->light = make_target(GL_RGBA32F, t);
-    t->triangles = make_target(GL_R32UI, t);
-    t->depth = make_target(GL_DEPTH_COMPONENT32F, t);
-    t->developed = make_target(GL_RGBA8, t);
-    glCreateFramebuffers(1, &t->light_frame);
-    glNamedFramebufferTexture(t->light_frame, GL_COLOR_ATTACHMENT0, t->light, 0);
-    glNamedFramebufferTexture(t->light_frame, GL_COLOR_ATTACHMENT1, t->triangles, 0);
-    glNamedFramebufferTexture(t->light_frame, GL_DEPTH_ATTACHMENT, t->depth, 0);
-    glNamedFramebufferDrawBuffers(t->light_frame, 2, drawn);
-    glCreateFramebuffers(1, &t->developed_frame);
-    glNamedFramebufferTexture(t->developed_frame, GL_COLOR_ATTACHMENT0, t->developed, 0);
-    return is_complete(t->light_frame) && is_complete(t->developed_frame)
-               ? EXIT_DONE
-               : failure("the graphics card cannot draw into pictures of this size");
+    make_textures(t);
+    return make_frames(t) ? EXIT_DONE
+                          : failure("the graphics card cannot draw into pictures of this size");
 }
 
 void gl_targets_destroy(gl_targets *t)
 {
-    const GLuint textures[] = {t->light, t->triangles, t->depth, t->developed};
-    const GLuint frames[] = {t->light_frame, t->developed_frame};
-    glDeleteTextures(sizeof textures / sizeof *textures, textures);
-    glDeleteFramebuffers(sizeof frames / sizeof *frames, frames);
+    const GLuint textures[] = {t->layer_light, t->layer_through, t->triangles, t->depths[0],
+                               t->depths[1],   t->sum,           t->lefts[0],  t->lefts[1],
+                               t->light,       t->developed};
+    const GLuint frames[] = {t->layer_frames[0], t->layer_frames[1], t->sum_frames[0],
+                             t->sum_frames[1],   t->light_frame,     t->developed_frame};
+    if (t->width > 0) {
+        glDeleteTextures(sizeof textures / sizeof *textures, textures);
+        glDeleteFramebuffers(sizeof frames / sizeof *frames, frames);
+    }
     *t = (gl_targets){0};
+}
+
+void gl_targets_bind(const gl_targets *t, GLuint frame)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, frame);
+    glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
 }

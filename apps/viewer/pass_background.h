@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the sky behind the surfaces.
+// Finishes the light of a picture: sky and suns behind the surfaces, and alpha.
 #ifndef VIEWER_PASS_BACKGROUND_H
 #define VIEWER_PASS_BACKGROUND_H
 
@@ -8,18 +8,24 @@
 
 #include <alpenglow/light.h>
 
-#include <stdbool.h>
-
 typedef struct pass_background {
-    GLuint program;
-    GLint kind; // SKY_…
-    float up[3], down[3];
+    GLuint program, array;
+    GLuint sky;  // texture of SKY_IMAGE
+    GLuint suns; // BUFFER_SUNS
+    GLuint sun_count;
+    GLint kind;           // SKY_...
+    float up[3], down[3]; // radiance of SKY_COLORS
+    float turn;           // of the image, in turns of the whole circle
 } pass_background;
 
+/// @param scene    whose suns are seen
+/// @param lighting NULL = nothing is behind the surfaces
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_background_destroy in both cases
-int pass_background_create(const alp_lighting_options *lighting, pass_background *pass);
+int pass_background_create(alp_context *context, const alp_scene *scene,
+                           const alp_lighting_options *lighting, pass_background *pass);
 void pass_background_destroy(pass_background *pass);
-/// Draws where no surface is. The targets and the depth test are those of pass_surfaces.
-void pass_background_draw(const pass_background *pass, const camera_view *view);
+/// @param left the share of light from behind that the surfaces let through, one of lefts
+void pass_background_draw(const pass_background *pass, const camera_view *view,
+                          const gl_targets *targets, GLuint left);
 
 #endif

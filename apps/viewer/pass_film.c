@@ -15,8 +15,10 @@ int pass_film_create(pass_film *pass)
 
 void pass_film_destroy(pass_film *pass)
 {
-    glDeleteProgram(pass->program);
-    glDeleteVertexArrays(1, &pass->array);
+    if (pass->array != 0) {
+        glDeleteProgram(pass->program);
+        glDeleteVertexArrays(1, &pass->array);
+    }
     *pass = (pass_film){0};
 }
 
@@ -27,8 +29,7 @@ void pass_film_draw(const pass_film *pass, const alp_film_options *film,
     for (int i = 0; i < 9; i++) {
         balance[i] = (GLfloat)numbers->balance[i / 3][i % 3];
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, t->developed_frame);
-    glViewport(0, 0, (GLsizei)t->width, (GLsizei)t->height);
+    gl_targets_bind(t, t->developed_frame);
     glDisable(GL_DEPTH_TEST);
     glUseProgram(pass->program);
     glBindVertexArray(pass->array);

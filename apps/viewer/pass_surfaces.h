@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws the surfaces: light, and the number of the triangle in each pixel.
+// Draws a layer of surfaces: the nearest, or the nearest behind the layer before.
 #ifndef VIEWER_PASS_SURFACES_H
 #define VIEWER_PASS_SURFACES_H
 
@@ -9,7 +9,7 @@
 #include "view_modes.h"
 
 typedef struct pass_surfaces {
-    GLuint program;
+    GLuint program, query;
     const view_mode *mode;
     bool metals_black;
 } pass_surfaces;
@@ -17,8 +17,10 @@ typedef struct pass_surfaces {
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_surfaces_destroy in both cases
 int pass_surfaces_create(const view_mode *mode, bool metals_black, pass_surfaces *pass);
 void pass_surfaces_destroy(pass_surfaces *pass);
-/// Clears the targets and draws into them.
-void pass_surfaces_draw(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
-                        const camera_view *view, const gl_targets *targets);
+/// Draws into layer_frames[layer % 2].
+/// @param layer its number, from 0
+/// @return whether it shows anything
+bool pass_surfaces_draw(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
+                        const camera_view *view, const gl_targets *targets, uint32_t layer);
 
 #endif

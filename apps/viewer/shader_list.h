@@ -9,6 +9,6 @@
 extern const gl_shader shader_surfaces_vert; // corners of triangles
 extern const gl_shader shader_none_frag, shader_albedo_frag, shader_lightmap_frag; // of modes
 extern const gl_shader shader_screen_vert; // the whole picture
-extern const gl_shader shader_background_frag, shader_film_frag;
+extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_frag;
 
 #endif

@@ -23,9 +23,9 @@ static void bind_lightmap(const mode_light *light)
 
 /// In the order of the choices of --with.
 static const view_mode modes[] = {
-    {&shader_none_frag, USES_BACKGROUND, ALP_RENDER_LIGHTMAP, NULL, NULL},
+    {&shader_none_frag, USES_BACKGROUND | USES_PANES, ALP_RENDER_LIGHTMAP, NULL, NULL},
     {&shader_albedo_frag, USES_METALS, ALP_RENDER_ALBEDO, NULL, NULL},
-    {&shader_lightmap_frag, USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS,
+    {&shader_lightmap_frag, USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS | USES_PANES,
      ALP_RENDER_LIGHTMAP, prepare_lightmap, bind_lightmap},
 };
 

@@ -17,7 +17,8 @@ typedef enum mode_use {
     USES_METALS = 1,
     USES_BACKGROUND = 2, // sky and suns, which are seen behind the surfaces
     USES_LIGHTS = 4,     // lamps, and bounces
-    USES_ATLAS = 8
+    USES_ATLAS = 8,
+    USES_PANES = 16 // not an option: light goes through panes
 } mode_use;
 
 typedef struct view_mode {

@@ -197,7 +197,8 @@ static int prepare(view_job *job)
     view_settings *v = &job->settings;
     session *s = &job->session;
     const double start = clock_seconds();
-    const drawing_options options = {.mode = v->mode,
+    const drawing_options options = {.context = s->context,
+                                     .mode = v->mode,
                                      .lighting = &v->render.lighting,
                                      .width = v->render.width,
                                      .height = v->render.height,

@@ -80,6 +80,16 @@ typedef struct alp_lighting_options {
 } alp_lighting_options;
 ALP_API alp_lighting_options alp_lighting_options_default(void);
 
+/// Radiance [W·sr⁻¹·m⁻²] of a sky by direction, for hosts that draw it. The disks of suns are not
+/// part of it. Their radiance is E⊥ / (π sin²(size / 2)).
+/// @param directions [count][3] unit   @param radiance [count][3] out
+/// @return ALP_OK; INVALID_ARGUMENT (NULL; an option out of range; a sky image of the wrong kind or
+///         shape); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_sky_radiance(alp_context *context,
+                                                  const alp_lighting_options *lighting,
+                                                  uint32_t count, const float (*directions)[3],
+                                                  float (*radiance)[3]);
+
 /// Checks the light of a scene by rays, and warns through the context's log:
 ///   no-light          There is no light at all.
 ///   light-inside      A point or spot light lies inside something or behind a wall, and lights

@@ -4,5 +4,5 @@
 
 void main()
 {
-    picture = vec4(read_surface(true).albedo, 1.0);
+    picture = vec4(read_surface(false).albedo, 1.0);
 }

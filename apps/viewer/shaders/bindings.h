@@ -13,6 +13,7 @@
 #define BUFFER_MATERIALS 5     // material [material + 1]; the last is that of no material
 #define BUFFER_MAP_UVS 6       // float [triangle][set][corner][2] of the light map
 #define BUFFER_MAP_TRIANGLES 7 // uint [triangle] page, and which sets count
+#define BUFFER_SUNS 0          // of pass_background: sun [sun]
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0
@@ -24,6 +25,9 @@
 #define TEXTURE_LIGHTMAP 8
 #define TEXTURE_SKY 9
 #define TEXTURE_PICTURE 10
+#define TEXTURE_THROUGH 11
+#define TEXTURE_LEFT 12
+#define TEXTURE_DEPTH 13
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0  // vec3, metres
@@ -40,11 +44,13 @@
 #define UNIFORM_AXES 12      // vec3 [3] of the surface's object
 #define UNIFORM_MAP_SETS 15  // uint, coordinate sets of the light map: 1, or 3 that are blended
 #define UNIFORM_MAP_EQUAL 16 // bool, whether sets that count have equal weight
+#define UNIFORM_PEELED 17    // bool, whether only what lies behind TEXTURE_DEPTH is drawn
 // Of pass_background.
-#define UNIFORM_SKY_KIND 8  // int, SKY_...
-#define UNIFORM_SKY_UP 9    // vec3, radiance
-#define UNIFORM_SKY_DOWN 10 // vec3, radiance
-#define UNIFORM_SKY_TURN 11 // float, radians
+#define UNIFORM_SKY_KIND 8   // int, SKY_...
+#define UNIFORM_SKY_UP 9     // vec3, radiance
+#define UNIFORM_SKY_DOWN 10  // vec3, radiance
+#define UNIFORM_SKY_TURN 11  // float, turns of the whole circle
+#define UNIFORM_SUN_COUNT 12 // uint
 // Of pass_film.
 #define UNIFORM_GAIN 8     // float, 2^exposure
 #define UNIFORM_TONE 9     // int, an alp_tone

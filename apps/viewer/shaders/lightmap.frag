@@ -52,7 +52,7 @@ vec3 irradiance()
 
 void main()
 {
-    surface s = read_surface(false);
-    vec3 light = s.emission + s.albedo / ALP_SH_A0 * irradiance();
+    surface s = read_surface(true);
+    vec3 light = s.emission + s.kept * s.albedo / ALP_SH_A0 * irradiance();
     picture = vec4(s.dark ? vec3(0.0) : light, 1.0);
 }

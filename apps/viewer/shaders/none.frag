@@ -4,6 +4,6 @@
 
 void main()
 {
-    surface s = read_surface(false);
+    surface s = read_surface(true);
     picture = vec4(s.dark ? vec3(0.0) : s.emission, 1.0);
 }

@@ -16,12 +16,18 @@ in vec2 texture_uv[TEXTURE_USES];
 in vec2 map_uv[3];
 flat in uint triangle_index;
 
-layout(location = 0) out vec4 picture; // radiance, and 1
+layout(binding = TEXTURE_DEPTH) uniform sampler2D peeled_depth;
+layout(location = UNIFORM_PEELED) uniform bool peeled;
+
+layout(location = 0) out vec4 picture; // radiance
 layout(location = 1) out uint picture_triangle;
+layout(location = 2) out vec4 picture_through; // share of light from behind that goes through
 
 struct surface {
     vec3 albedo;   // diffuse
     vec3 emission; // radiance
+    vec3 through;  // share of light from behind that goes straight through
+    float kept;    // share of light that is reflected by the albedo
     bool dark;     // the back of a single-sided surface, which sends no light
 };
 
@@ -31,34 +37,68 @@ vec4 base_color()
            texture(base_color_texture, texture_uv[TEXTURE_BASE_COLOR]) * vertex_color;
 }
 
-vec3 albedo_of(vec4 color)
+float metalness()
 {
-    material m = materials[material_index];
-    if ((m.flags & 2u) == 0u) {
-        return vec3(ALP_ALBEDO_WITHOUT_MATERIAL);
-    }
-    float metalness = m.metallic * texture(metallic_texture, texture_uv[TEXTURE_METALLIC]).b;
-    return clamp(color.rgb * (metals_black ? 1.0 - metalness : 1.0), 0.0, ALP_ALBEDO_LIMIT);
+    return materials[material_index].metallic *
+           texture(metallic_texture, texture_uv[TEXTURE_METALLIC]).b;
 }
 
-/// Reads the surface of this fragment. Fragments in holes end here.
+vec3 albedo_of(vec4 color)
+{
+    if ((materials[material_index].flags & 2u) == 0u) {
+        return vec3(ALP_ALBEDO_WITHOUT_MATERIAL);
+    }
+    return clamp(color.rgb * (metals_black ? 1.0 - metalness() : 1.0), 0.0, ALP_ALBEDO_LIMIT);
+}
+
+/// Light through a pane: (1 - a) lerp(1, c, a) + a t c.
+void add_pane(float a, vec3 color, inout surface s)
+{
+    float t = materials[material_index].transmission;
+    if (t > 0.0) {
+        t = clamp(t * texture(transmission_texture, texture_uv[TEXTURE_TRANSMISSION]).r, 0.0, 1.0) *
+            (1.0 - clamp(metalness(), 0.0, 1.0));
+    }
+    vec3 c = clamp(color, 0.0, 1.0);
+    s.through = (1.0 - a) * (1.0 - a + a * c) + a * t * c;
+    s.kept = a * (1.0 - t);
+}
+
+/// Ends fragments in holes, and those that an earlier layer has drawn.
 /// @param cut_blended whether blended surfaces have holes below alpha 1/2
-surface read_surface(bool cut_blended)
+void cut(float alpha, bool cut_blended)
+{
+    material m = materials[material_index];
+    float cutoff = m.alpha_mode == ALPHA_MASK                   ? m.emission.a
+                   : m.alpha_mode == ALPHA_BLEND && cut_blended ? 0.5
+                                                                : -1.0;
+    if (m.alpha_mode != ALPHA_OPAQUE && alpha < cutoff) {
+        discard;
+    }
+    if (peeled && gl_FragCoord.z >= texelFetch(peeled_depth, ivec2(gl_FragCoord.xy), 0).r) {
+        discard;
+    }
+}
+
+/// Reads the surface of this fragment.
+/// @param panes whether light goes through; else blended surfaces are cut, and others opaque
+surface read_surface(bool panes)
 {
     material m = materials[material_index];
     vec4 color = base_color();
-    float cutoff = m.alpha_mode == ALPHA_MASK                    ? m.emission.a
-                   : m.alpha_mode == ALPHA_BLEND && cut_blended ? 0.5
-                                                                : -1.0;
-    if (m.alpha_mode != ALPHA_OPAQUE && color.a < cutoff) {
-        discard;
-    }
-    vec3 emitted = texture(emission_texture, texture_uv[TEXTURE_EMISSION]).rgb;
+    cut(color.a, !panes);
     float covered = m.alpha_mode == ALPHA_BLEND ? clamp(color.a, 0.0, 1.0) : 1.0;
+    vec3 emitted = texture(emission_texture, texture_uv[TEXTURE_EMISSION]).rgb;
     surface s;
     s.albedo = albedo_of(color);
     s.emission = m.emission.rgb * emitted * covered;
+    s.through = vec3(0.0);
+    s.kept = 1.0;
+    if (panes) {
+        add_pane(covered, color.rgb, s);
+    }
     s.dark = !gl_FrontFacing && (m.flags & 1u) == 0u;
     picture_triangle = triangle_index;
+    picture_through = vec4(s.through, 1.0);
     return s;
 }

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Adds layers of surfaces to a picture, from front to back, so that panes are drawn in their order
+// without sorting triangles.
+// Based on: C. Everitt. Interactive order-independent transparency. NVIDIA 2001 (depth peeling).
+#ifndef VIEWER_PASS_LAYERS_H
+#define VIEWER_PASS_LAYERS_H
+
+#include "gl_targets.h"
+
+typedef struct pass_layers {
+    GLuint program, array;
+} pass_layers;
+
+/// @return EXIT_DONE, or EXIT_FAILED after a message; pass_layers_destroy in both cases
+int pass_layers_create(pass_layers *pass);
+void pass_layers_destroy(pass_layers *pass);
+/// Empties the sum.
+void pass_layers_clear(const gl_targets *targets);
+/// Adds the layer of the targets to the sum.
+/// @param layer its number, from 0; its result of lefts is lefts[1 - layer % 2]
+void pass_layers_add(const pass_layers *pass, const gl_targets *targets, uint32_t layer);
+
+#endif
