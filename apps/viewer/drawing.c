@@ -7,13 +7,22 @@
 /// More panes than any eye sees through.
 enum { LAYER_LIMIT = 4096 };
 
+/// Whether a field is read on the processor at every pixel.
+static bool reads_pixels(const drawing *d)
+{
+    return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == FIELD_PIXEL;
+}
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
-    *d = (drawing){.scene = scene};
+    *d = (drawing){.scene = scene, .light = o->light};
     int code = gl_targets_create(o->width, o->height, &d->targets);
     if (code == EXIT_DONE) {
         code = pass_surfaces_create(o->mode, o->metals_black, &d->surfaces);
+    }
+    if (code == EXIT_DONE && reads_pixels(d)) {
+        code = pass_field_create(&d->targets, &d->field);
     }
     if (code == EXIT_DONE) {
         code = pass_background_create(o->context, scene, open ? o->lighting : NULL, &d->background);
@@ -30,11 +39,28 @@ void drawing_destroy(drawing *d)
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);
     pass_background_destroy(&d->background);
+    pass_field_destroy(&d->field);
     pass_surfaces_destroy(&d->surfaces);
     gl_targets_destroy(&d->targets);
 }
 
-void drawing_draw(const drawing *d, const alp_camera *camera)
+int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
+{
+    pass_background_destroy(&d->background);
+    return pass_background_create(context, d->scene, lighting, &d->background);
+}
+
+/// Draws one layer. @return whether it shows anything
+static bool draw_layer(const drawing *d, const camera_view *view, uint32_t layer)
+{
+    if (reads_pixels(d) &&
+        !pass_field_draw(&d->field, &d->light.field, &d->drawn, view, &d->targets, layer)) {
+        return false;
+    }
+    return pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
+}
+
+void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const gl_targets *t = &d->targets;
@@ -43,8 +69,8 @@ void drawing_draw(const drawing *d, const alp_camera *camera)
     const uint32_t limit = panes ? LAYER_LIMIT : 1;
     uint32_t layer = 0;
     pass_layers_clear(t);
-    while (layer < limit &&
-           pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
+    gl_field_update(&d->light.field, d->scene);
+    while (layer < limit && draw_layer(d, &view, layer)) {
         pass_layers_add(&d->layers, t, layer++);
     }
     pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);

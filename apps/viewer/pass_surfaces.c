@@ -42,6 +42,7 @@ static void draw_surface(const gl_scene *scene, const gl_surface *s)
         glBindSampler(i, material->uses[i].sampler);
     }
     glUniform1ui(UNIFORM_MATERIAL, s->material);
+    glUniform1ui(UNIFORM_SURFACE, (GLuint)(s - scene->surfaces));
     glUniform3fv(UNIFORM_AXES, 3, &s->axes[0][0]);
     glDrawArrays(GL_TRIANGLES, s->first, s->corners);
 }
@@ -56,6 +57,7 @@ static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_li
     glUniform1ui(UNIFORM_VERTICES, scene->vertex_count);
     glUniform1i(UNIFORM_COLORED, scene->colored);
     glUniform1i(UNIFORM_METALS, pass->metals_black);
+    glUniform1i(UNIFORM_FIELD_READ, FIELD_PIXEL); // vertices hold no light
     if (pass->mode->bind != NULL) {
         pass->mode->bind(light);
     }

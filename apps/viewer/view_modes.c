@@ -2,9 +2,10 @@
 #include "view_modes.h"
 
 #include "lightmaps.h"
+#include "mode_fields.h"
 #include "shader_list.h"
 
-static int prepare_lightmap(session *s, const command_line *a, const alp_render_options *o,
+static int prepare_lightmap(session *s, const command_line *a, alp_render_options *o,
                             mode_light *light)
 {
     alp_lightmap *lightmap = NULL;
@@ -21,12 +22,49 @@ static void bind_lightmap(const mode_light *light)
     gl_lightmap_bind(&light->lightmap);
 }
 
+#define FIELD_USES (USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES | USES_FIELD)
+#define AMBIENT_MODE(MODEL)                                                                        \
+    {                                                                                              \
+        .fragment = &shader_field_frag, .uses = FIELD_USES, .method = ALP_RENDER_FIELD,            \
+        .field = {FIELD_OTHER, MODEL}, .prepare = mode_field_prepare, .bind = mode_field_bind      \
+    }
+
 /// In the order of the choices of --with.
 static const view_mode modes[] = {
-    {&shader_none_frag, USES_BACKGROUND | USES_PANES, ALP_RENDER_LIGHTMAP, NULL, NULL},
-    {&shader_albedo_frag, USES_METALS, ALP_RENDER_ALBEDO, NULL, NULL},
-    {&shader_lightmap_frag, USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS | USES_PANES,
-     ALP_RENDER_LIGHTMAP, prepare_lightmap, bind_lightmap},
+    {.fragment = &shader_none_frag,
+     .uses = USES_BACKGROUND | USES_PANES,
+     .method = ALP_RENDER_LIGHTMAP},
+    {.fragment = &shader_albedo_frag, .uses = USES_METALS, .method = ALP_RENDER_ALBEDO},
+    {.fragment = &shader_lightmap_frag,
+     .uses = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS | USES_PANES,
+     .method = ALP_RENDER_LIGHTMAP,
+     .prepare = prepare_lightmap,
+     .bind = bind_lightmap},
+    {.fragment = &shader_field_frag,
+     .uses = FIELD_USES | USES_PROBES,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_PROBES},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind},
+    {.fragment = &shader_field_frag,
+     .uses = FIELD_USES,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_AMBIENCE},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind,
+     .move = mode_ambience_move},
+    {.fragment = &shader_field_frag,
+     .uses = FIELD_USES,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_LPV},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind,
+     .move = mode_lpv_move},
+    AMBIENT_MODE(ALP_AMBIENT_CONSTANT),
+    AMBIENT_MODE(ALP_AMBIENT_HEMISPHERE),
+    AMBIENT_MODE(ALP_AMBIENT_GROUND_MAP),
+    AMBIENT_MODE(ALP_AMBIENT_CUBE),
+    AMBIENT_MODE(ALP_AMBIENT_ENVIRONMENT),
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -53,7 +91,12 @@ int view_mode_check(const command_line *a)
                    {"--atlas", OPTION_ATLAS, USES_ATLAS},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
-                   {"--seed", OPTION_SEED, USES_ATLAS}};
+                   {"--seed", OPTION_SEED, USES_ATLAS | USES_FIELD},
+                   {"--read", OPTION_READ, USES_FIELD},
+                   {"--probes", OPTION_PROBES, USES_PROBES},
+                   {"--spacing", OPTION_SPACING, USES_PROBES},
+                   {"--bounds", OPTION_BOUNDS, USES_PROBES},
+                   {"--lookup", OPTION_LOOKUP, USES_PROBES}};
     const unsigned uses = view_mode_of(a)->uses;
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].use & uses) == 0 && a->values[read_by[i].id].given) {
@@ -61,10 +104,17 @@ int view_mode_check(const command_line *a)
                                a->values[OPTION_WITH].text);
         }
     }
-    return EXIT_DONE;
+    return field_check(a, view_mode_of(a)->field.model);
+}
+
+bool view_mode_flies(const command_line *a)
+{
+    return view_mode_of(a)->field.model == FIELD_AMBIENCE;
 }
 
 void mode_light_destroy(mode_light *light)
 {
     gl_lightmap_destroy(&light->lightmap);
+    gl_field_destroy(&light->field);
+    field_source_clear(&light->source);
 }

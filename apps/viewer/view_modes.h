@@ -3,13 +3,16 @@
 #ifndef VIEWER_VIEW_MODES_H
 #define VIEWER_VIEW_MODES_H
 
+#include "gl_field.h"
 #include "gl_lightmap.h"
 #include "gl_program.h"
-#include "session.h"
+#include "picture_fields.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
 typedef struct mode_light {
     gl_lightmap lightmap;
+    gl_field field;
+    field_source source; // of `field`
 } mode_light;
 
 /// Options that a mode reads.
@@ -18,25 +21,34 @@ typedef enum mode_use {
     USES_BACKGROUND = 2, // sky and suns, which are seen behind the surfaces
     USES_LIGHTS = 4,     // lamps, and bounces
     USES_ATLAS = 8,
-    USES_PANES = 16 // not an option: light goes through panes
+    USES_PANES = 16, // not an option: light goes through panes
+    USES_FIELD = 32,
+    USES_PROBES = 64
 } mode_use;
 
 typedef struct view_mode {
     const gl_shader *fragment;
     unsigned uses;            // of mode_use
     alp_render_method method; // of render, whose film the picture has
+    picture_field field;      // of USES_FIELD
     /// Makes the light. NULL: there is none.
+    /// @param options of the picture; camera and lighting may become those of the light
     /// @return EXIT_DONE, or an exit code after a message
-    int (*prepare)(session *s, const command_line *arguments, const alp_render_options *options,
+    int (*prepare)(session *s, const command_line *arguments, alp_render_options *options,
                    mode_light *light);
     /// Binds it, and sets the uniforms of the current program. NULL: there is none.
     void (*bind)(const mode_light *light);
+    /// Brings the light to a moment of a flight. NULL: it stands still.
+    /// @return EXIT_DONE, or an exit code after a message
+    int (*move)(session *s, double time, const alp_camera *camera, mode_light *light);
 } view_mode;
 
 /// The mode of --with.
 const view_mode *view_mode_of(const command_line *arguments);
 /// Refuses options that the mode does not use. @return EXIT_DONE, or EXIT_USAGE after a message
 int view_mode_check(const command_line *arguments);
+/// Whether light comes from a field that moves along the flight of --path also in a single picture.
+bool view_mode_flies(const command_line *arguments);
 void mode_light_destroy(mode_light *light);
 
 #endif

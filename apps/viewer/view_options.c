@@ -17,22 +17,27 @@ static int check_output(const command_line *a)
     } read_by[] = {{"--frames", OPTION_FRAMES, true},
                    {"--path", OPTION_PATH, true},
                    {"--camera", OPTION_CAMERA, false},
+                   {"--time", OPTION_TIME, false},
                    {"--reference", OPTION_REFERENCE, false},
                    {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, false}};
     const option_value *v = a->values;
-    const bool flight = v[OPTION_PICTURES].given;
-    if (v[OPTION_OUTPUT].given == flight) {
-        return usage_error(COMMAND_VIEW, flight ? "-o and --pictures are two outputs; give one"
-                                                : "no output; give -o IMAGE.png for a picture, or "
-                                                  "--path FLIGHT.csv --pictures DIR for a flight");
+    const bool pictures = v[OPTION_PICTURES].given;
+    const bool flies =
+        v[OPTION_WITH].given && view_mode_flies(a); // the light, before a picture too
+    if (v[OPTION_OUTPUT].given == pictures) {
+        return usage_error(COMMAND_VIEW, pictures
+                                             ? "-o and --pictures are two outputs; give one"
+                                             : "no output; give -o IMAGE.png for a picture, or "
+                                               "--path FLIGHT.csv --pictures DIR for a flight");
     }
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
-        if (v[read_by[i].id].given && read_by[i].flight != flight) {
+        const bool shared = read_by[i].id == OPTION_PATH && flies;
+        if (v[read_by[i].id].given && read_by[i].flight != pictures && !shared) {
             return usage_error(COMMAND_VIEW, "%s: does not apply to %s", read_by[i].name,
-                               flight ? "--pictures" : "-o");
+                               pictures ? "--pictures" : "-o");
         }
     }
-    if (flight && !v[OPTION_PATH].given) {
+    if (pictures && !v[OPTION_PATH].given && !flies) {
         return usage_error(COMMAND_VIEW, "no flight; give --path FLIGHT.csv, lines of "
                                          "t,px,py,pz,tx,ty,tz[,vfov]");
     }
@@ -77,7 +82,8 @@ int view_settings_read(const command_line *a, view_settings *s)
     code = code == EXIT_DONE ? check_image(a) : code;
     code = code == EXIT_DONE ? check_reference(a) : code;
     if (code == EXIT_DONE && !a->values[OPTION_WITH].given) {
-        code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, albedo or none");
+        code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, probes, ambience, lpv, "
+                                         "albedo, none or another");
     }
     code = code == EXIT_DONE ? view_mode_check(a) : code;
     if (code != EXIT_DONE) {

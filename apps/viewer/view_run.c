@@ -21,6 +21,7 @@ typedef struct view_job {
     session session;
     gl_context gl;
     drawing drawing;
+    flight path;                    // of the camera; empty where the light has the flight
     alp_film_adaptation adaptation; // of a flight
     double prepare_seconds;
 } view_job;
@@ -114,6 +115,37 @@ static int draw_picture(view_job *job)
 
 // --- a flight ------------------------------------------------------------------------------------
 
+/// Reads the flight, and takes the view of its beginning. The volume of ambience reads its own.
+static int read_flight(view_job *job)
+{
+    const command_line *a = job->arguments;
+    const alp_scene_info info = alp_scene_get_info(job->session.scene);
+    if (!a->values[OPTION_PICTURES].given || view_mode_flies(a)) {
+        return EXIT_DONE;
+    }
+    const int code = flight_read(a->values[OPTION_PATH].text, info.origin, &job->path);
+    if (code == EXIT_DONE) {
+        const flight_camera first = flight_at(&job->path, flight_start(&job->path));
+        job->settings.render.camera = flight_view(&first);
+    }
+    return code;
+}
+
+/// Brings the light to a moment of the flight.
+static int move_light(view_job *job, double time, const alp_camera *camera)
+{
+    const view_mode *mode = job->settings.mode;
+    const flight_run *run = job->drawing.light.source.flight;
+    int code = EXIT_DONE;
+    if (mode->move != NULL) {
+        code = mode->move(&job->session, time, camera, &job->drawing.light);
+    }
+    if (code == EXIT_DONE && run != NULL && run->day > 0.0) {
+        code = drawing_set_lighting(&job->drawing, job->session.context, &run->lighting);
+    }
+    return code;
+}
+
 /// Develops a frame. Automatic exposure adapts over the frames.
 /// @param seconds since the frame before
 static alp_result develop_frame(view_job *job, double seconds, alp_image **developed)
@@ -136,13 +168,15 @@ static int draw_frame(view_job *job, const flight *path, uint64_t frame, uint64_
     session *s = &job->session;
     const double start = flight_start(path), length = flight_end(path) - start;
     const double step = count > 1 ? length / (double)(count - 1) : 0.0;
-    const flight_camera at = flight_at(path, start + step * (double)frame);
+    const double time = start + step * (double)frame;
+    const flight_camera at = flight_at(path, time);
     const alp_camera camera = flight_view(&at);
     char name[32];
     alp_image *developed = NULL;
     snprintf(name, sizeof name, "frame_%04llu", (unsigned long long)frame + 1);
     char *file = pictures_path(job->arguments->values[OPTION_PICTURES].text, name);
     int code = output_check(file, overwrites(job));
+    code = code == EXIT_DONE ? move_light(job, time, &camera) : code;
     if (code == EXIT_DONE) {
         drawing_draw(&job->drawing, &camera);
         alp_result result = develop_frame(job, frame > 0 ? step : 0.0, &developed);
@@ -180,13 +214,9 @@ static int draw_frames(view_job *job, const flight *path)
 
 static int draw_flight(view_job *job)
 {
-    const alp_scene_info info = alp_scene_get_info(job->session.scene);
-    flight path = {0};
-    int code = flight_read(job->arguments->values[OPTION_PATH].text, info.origin, &path);
+    const flight_run *run = job->drawing.light.source.flight;
     job->adaptation = alp_film_adaptation_default();
-    code = code == EXIT_DONE ? draw_frames(job, &path) : code;
-    flight_clear(&path);
-    return code;
+    return draw_frames(job, run != NULL ? &run->path : &job->path);
 }
 
 // --- the whole -----------------------------------------------------------------------------------
@@ -197,19 +227,23 @@ static int prepare(view_job *job)
     view_settings *v = &job->settings;
     session *s = &job->session;
     const double start = clock_seconds();
-    const drawing_options options = {.context = s->context,
-                                     .mode = v->mode,
-                                     .lighting = &v->render.lighting,
-                                     .width = v->render.width,
-                                     .height = v->render.height,
-                                     .metals_black =
-                                         job->arguments->values[OPTION_METALS].choice == 1};
+    drawing_options options = {.context = s->context,
+                               .mode = v->mode,
+                               .lighting = &v->render.lighting,
+                               .width = v->render.width,
+                               .height = v->render.height,
+                               .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
     v->render.progress = session_progress;
     v->render.progress_user = s;
     interrupt_defer();
-    int code = drawing_create(s->scene, &options, &job->drawing);
-    if (code == EXIT_DONE && v->mode->prepare != NULL) {
-        code = v->mode->prepare(s, job->arguments, &v->render, &job->drawing.light);
+    int code = EXIT_DONE;
+    if (v->mode->prepare != NULL) {
+        code = v->mode->prepare(s, job->arguments, &v->render, &options.light);
+    }
+    if (code == EXIT_DONE) {
+        code = drawing_create(s->scene, &options, &job->drawing);
+    } else {
+        mode_light_destroy(&options.light);
     }
     code = code == EXIT_DONE ? gl_context_check(&job->gl) : code;
     progress_clear(&s->progress);
@@ -224,12 +258,14 @@ static int run_scene(view_job *job)
     alp_image *sky = NULL;
     int code = lighting_open(&job->session, a, &v->render.lighting, &v->lamps, &sky);
     code = code == EXIT_DONE ? camera_find(&job->session, a, &v->render) : code;
+    code = code == EXIT_DONE ? read_flight(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
     if (code == EXIT_DONE) {
         code = a->values[OPTION_PICTURES].given ? draw_flight(job) : draw_picture(job);
     }
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
     drawing_destroy(&job->drawing);
+    flight_clear(&job->path);
     alp_image_destroy(sky);
     session_close(&job->session);
     return code;

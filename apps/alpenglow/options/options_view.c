@@ -26,11 +26,29 @@ static const option rows[] = {
      .kind = KIND_CHOICE,
      .name = "--with",
      .value = "MODE",
-     .choices = "none|albedo|lightmap",
+     .choices = "none|albedo|lightmap|probes|ambience|lpv|constant|hemisphere|ground-map|"
+                "ambient-cube|environment",
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
-             "lightmap: as render --with lightmap."},
+             "lightmap: as render --with lightmap.\n"
+             "probes, ambience, lpv, constant, hemisphere, ground-map, ambient-cube, environment: "
+             "fields of light, as render --direct off of that name; see --read. The volume of "
+             "ambience flies along, and that of lpv is lit again in each picture."},
+    {.id = OPTION_READ,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--read",
+     .value = "pixel|vertex|object",
+     .choices = "pixel|vertex|object",
+     .initial = "pixel",
+     .help = "Places where a field is read.\n"
+             "pixel: at every pixel, with its normal.\n"
+             "vertex: at every vertex, for both sides of double-sided surfaces; interpolated "
+             "between them. Normal maps do not count.\n"
+             "object: once an object, at the middle of its bounds, in twelve directions; nine "
+             "spherical harmonics of these give every pixel the light of its normal."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

@@ -5,15 +5,17 @@
 #define VIEWER_BINDINGS_H
 
 // Storage buffers.
-#define BUFFER_POSITIONS 0     // float [vertex][3]
-#define BUFFER_NORMALS 1       // float [vertex][3]
-#define BUFFER_COLORS 2        // float [vertex][4]; one element where all are 1
-#define BUFFER_UVS 3           // float [slot in use][vertex][2]
-#define BUFFER_TRIANGLES 4     // uint [triangle][3]
-#define BUFFER_MATERIALS 5     // material [material + 1]; the last is that of no material
-#define BUFFER_MAP_UVS 6       // float [triangle][set][corner][2] of the light map
-#define BUFFER_MAP_TRIANGLES 7 // uint [triangle] page, and which sets count
-#define BUFFER_SUNS 0          // of pass_background: sun [sun]
+#define BUFFER_POSITIONS 0       // float [vertex][3]
+#define BUFFER_NORMALS 1         // float [vertex][3]
+#define BUFFER_COLORS 2          // float [vertex][4]; one element where all are 1
+#define BUFFER_UVS 3             // float [slot in use][vertex][2]
+#define BUFFER_TRIANGLES 4       // uint [triangle][3]
+#define BUFFER_MATERIALS 5       // material [material + 1]; the last is that of no material
+#define BUFFER_MAP_UVS 6         // float [triangle][set][corner][2] of the light map
+#define BUFFER_MAP_TRIANGLES 7   // uint [triangle] page, and which sets count
+#define BUFFER_FIELD_VERTICES 12 // float [front, back][vertex][3] irradiance
+#define BUFFER_FIELD_OBJECTS 13  // vec4 [surface][9] spherical harmonics of irradiance
+#define BUFFER_SUNS 0            // of pass_background: sun [sun]
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0
@@ -28,6 +30,7 @@
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
 #define TEXTURE_DEPTH 13
+#define TEXTURE_FIELD 24
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0  // vec3, metres
@@ -37,14 +40,16 @@
 #define UNIFORM_NEAR 4    // float, metres
 #define UNIFORM_SIZE 5    // vec2, pixels
 // Of pass_surfaces.
-#define UNIFORM_MATERIAL 8   // uint
-#define UNIFORM_VERTICES 9   // uint, vertices of the scene
-#define UNIFORM_COLORED 10   // bool, whether vertices have colours
-#define UNIFORM_METALS 11    // bool, whether metals are black
-#define UNIFORM_AXES 12      // vec3 [3] of the surface's object
-#define UNIFORM_MAP_SETS 15  // uint, coordinate sets of the light map: 1, or 3 that are blended
-#define UNIFORM_MAP_EQUAL 16 // bool, whether sets that count have equal weight
-#define UNIFORM_PEELED 17    // bool, whether only what lies behind TEXTURE_DEPTH is drawn
+#define UNIFORM_MATERIAL 8    // uint
+#define UNIFORM_VERTICES 9    // uint, vertices of the scene
+#define UNIFORM_COLORED 10    // bool, whether vertices have colours
+#define UNIFORM_METALS 11     // bool, whether metals are black
+#define UNIFORM_AXES 12       // vec3 [3] of the surface's object
+#define UNIFORM_MAP_SETS 15   // uint, coordinate sets of the light map: 1, or 3 that are blended
+#define UNIFORM_MAP_EQUAL 16  // bool, whether sets that count have equal weight
+#define UNIFORM_PEELED 17     // bool, whether only what lies behind TEXTURE_DEPTH is drawn
+#define UNIFORM_SURFACE 40    // uint, of the scene
+#define UNIFORM_FIELD_READ 41 // int, FIELD_...
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
@@ -62,6 +67,11 @@
 #define SKY_NONE 0
 #define SKY_COLORS 1
 #define SKY_IMAGE 2
+
+// Where a field is read; the order of --read.
+#define FIELD_PIXEL 0  // in TEXTURE_FIELD
+#define FIELD_VERTEX 1 // in BUFFER_FIELD_VERTICES
+#define FIELD_OBJECT 2 // in BUFFER_FIELD_OBJECTS
 
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u
