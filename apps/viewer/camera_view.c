@@ -58,6 +58,7 @@ void camera_view_bind(const camera_view *view)
     glUniform3fv(UNIFORM_FORWARD, 1, view->forward);
     glUniform3fv(UNIFORM_RIGHT, 1, view->right);
     glUniform3fv(UNIFORM_UP, 1, view->up);
-    glUniform1f(UNIFORM_NEAR, view->near_plane);
+    glUniform1f(UNIFORM_NEAR, view->parallel ? 1.0f / view->far_plane : view->near_plane);
+    glUniform1i(UNIFORM_PARALLEL, view->parallel);
     glUniform2f(UNIFORM_SIZE, (float)view->width, (float)view->height);
 }

@@ -13,6 +13,17 @@ static bool reads_pixels(const drawing *d)
     return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == FIELD_PIXEL;
 }
 
+/// Draws the shadows of what does not move once.
+static int add_lights(const alp_scene *scene, const alp_lighting_options *lighting, drawing *d)
+{
+    int code = gl_lights_create(scene, lighting, &d->light.lights);
+    code = code == EXIT_DONE ? pass_shadows_create(&d->shadows) : code;
+    if (code == EXIT_DONE) {
+        pass_shadows_draw(&d->shadows, &d->drawn, &d->light.lights);
+    }
+    return code;
+}
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
@@ -29,13 +40,16 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     }
     code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
-    return code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
+    return code == EXIT_DONE && lit ? add_lights(scene, o->lighting, d) : code;
 }
 
 void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
     gl_scene_destroy(&d->drawn);
+    pass_shadows_destroy(&d->shadows);
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);
     pass_background_destroy(&d->background);
@@ -46,8 +60,12 @@ void drawing_destroy(drawing *d)
 
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
 {
+    const bool lit = d->shadows.program != 0;
     pass_background_destroy(&d->background);
-    return pass_background_create(context, d->scene, lighting, &d->background);
+    pass_shadows_destroy(&d->shadows);
+    gl_lights_destroy(&d->light.lights);
+    const int code = pass_background_create(context, d->scene, lighting, &d->background);
+    return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, d) : code;
 }
 
 /// Draws one layer. @return whether it shows anything

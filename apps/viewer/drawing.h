@@ -7,6 +7,7 @@
 #include "pass_field.h"
 #include "pass_film.h"
 #include "pass_layers.h"
+#include "pass_shadows.h"
 #include "pass_surfaces.h"
 
 typedef struct drawing {
@@ -18,6 +19,7 @@ typedef struct drawing {
     pass_layers layers;
     pass_background background;
     pass_film film;
+    pass_shadows shadows;
     mode_light light; // of the mode; owned
 } drawing;
 
@@ -27,6 +29,7 @@ typedef struct drawing_options {
     mode_light light; // of the mode; drawing_create takes it over, also where it fails
     const alp_lighting_options *lighting;
     uint32_t width, height;
+    bool direct; // lamps and suns shine, if the mode adds them to other light
     bool metals_black;
     bool level_zero; // textures are read bilinearly without mip levels, as by render
 } drawing_options;
@@ -36,7 +39,7 @@ typedef struct drawing_options {
 int drawing_create(const alp_scene *scene, const drawing_options *options, drawing *d);
 void drawing_destroy(drawing *d);
 
-/// Changes the sky and the suns behind the surfaces. @return EXIT_DONE, or EXIT_FAILED
+/// Changes sky, suns and lamps. @return EXIT_DONE, or EXIT_FAILED
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
 /// Draws a frame of light.
 void drawing_draw(drawing *d, const alp_camera *camera);

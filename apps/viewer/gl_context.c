@@ -163,8 +163,9 @@ static bool open_display(gl_context *c, char found[LINE_SIZE])
 static void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                   GLsizei length, const GLchar *text, const void *user)
 {
-    (void)source, (void)id, (void)severity, (void)length;
-    if (type == GL_DEBUG_TYPE_ERROR) {
+    (void)id, (void)severity, (void)length;
+    // Faults of shaders are printed with their file and line by gl_program_create.
+    if (type == GL_DEBUG_TYPE_ERROR && source != GL_DEBUG_SOURCE_SHADER_COMPILER) {
         ((gl_context *)(uintptr_t)user)->failed = true;
         fputs("alpenglow: OpenGL: ", stderr);
         print_clean(stderr, text);

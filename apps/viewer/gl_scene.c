@@ -221,3 +221,28 @@ void gl_scene_bind(const gl_scene *d)
     glBindVertexArray(d->array);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, GL_SCENE_BUFFERS, d->buffers);
 }
+
+static void draw_surface(const gl_scene *scene, const gl_surface *s)
+{
+    const gl_material *material = &scene->materials[s->material];
+    for (GLuint i = 0; i < TEXTURE_USES; i++) {
+        glBindTextureUnit(i, material->uses[i].texture);
+        glBindSampler(i, material->uses[i].sampler);
+    }
+    glUniform1ui(UNIFORM_MATERIAL, s->material);
+    glUniform1ui(UNIFORM_SURFACE, (GLuint)(s - scene->surfaces));
+    glUniform3fv(UNIFORM_AXES, 3, &s->axes[0][0]);
+    glDrawArrays(GL_TRIANGLES, s->first, s->corners);
+}
+
+void gl_scene_draw(const gl_scene *d)
+{
+    glUniform1ui(UNIFORM_VERTICES, d->vertex_count);
+    glUniform1i(UNIFORM_COLORED, d->colored);
+    for (uint32_t i = 0; i < d->surface_count; i++) {
+        draw_surface(d, &d->surfaces[i]);
+    }
+    for (GLuint i = 0; i < TEXTURE_USES; i++) {
+        glBindSampler(i, 0);
+    }
+}

@@ -51,5 +51,7 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, gl_scene *drawn);
 void gl_scene_destroy(gl_scene *drawn);
 /// Binds the vertex array and the buffers.
 void gl_scene_bind(const gl_scene *drawn);
+/// Draws all surfaces by the current program, whose vertex shader is surfaces.vert. It is bound.
+void gl_scene_draw(const gl_scene *drawn);
 
 #endif

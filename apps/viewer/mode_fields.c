@@ -26,6 +26,7 @@ int mode_field_prepare(session *s, const command_line *a, alp_render_options *o,
 void mode_field_bind(const mode_light *light)
 {
     gl_field_bind(&light->field);
+    gl_lights_bind(&light->lights);
 }
 
 int mode_ambience_move(session *s, double time, const alp_camera *camera, mode_light *light)

@@ -34,19 +34,6 @@ static void clear(GLuint frame, bool first)
     glClearNamedFramebufferfv(frame, GL_DEPTH, 0, &far);
 }
 
-static void draw_surface(const gl_scene *scene, const gl_surface *s)
-{
-    const gl_material *material = &scene->materials[s->material];
-    for (GLuint i = 0; i < TEXTURE_USES; i++) {
-        glBindTextureUnit(i, material->uses[i].texture);
-        glBindSampler(i, material->uses[i].sampler);
-    }
-    glUniform1ui(UNIFORM_MATERIAL, s->material);
-    glUniform1ui(UNIFORM_SURFACE, (GLuint)(s - scene->surfaces));
-    glUniform3fv(UNIFORM_AXES, 3, &s->axes[0][0]);
-    glDrawArrays(GL_TRIANGLES, s->first, s->corners);
-}
-
 /// What is the same for all surfaces.
 static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
                  const camera_view *view)
@@ -54,8 +41,6 @@ static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_li
     glUseProgram(pass->program);
     gl_scene_bind(scene);
     camera_view_bind(view);
-    glUniform1ui(UNIFORM_VERTICES, scene->vertex_count);
-    glUniform1i(UNIFORM_COLORED, scene->colored);
     glUniform1i(UNIFORM_METALS, pass->metals_black);
     glUniform1i(UNIFORM_FIELD_READ, FIELD_PIXEL); // vertices hold no light
     if (pass->mode->bind != NULL) {
@@ -79,13 +64,8 @@ bool pass_surfaces_draw(const pass_surfaces *pass, const gl_scene *scene, const 
     glBindTextureUnit(TEXTURE_DEPTH, first ? scene->white : t->depths[1 - layer % 2]);
     glUniform1i(UNIFORM_PEELED, !first);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, pass->query);
-    for (uint32_t i = 0; i < scene->surface_count; i++) {
-        draw_surface(scene, &scene->surfaces[i]);
-    }
+    gl_scene_draw(scene);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
-    for (GLuint i = 0; i < TEXTURE_USES; i++) {
-        glBindSampler(i, 0);
-    }
     glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glGetQueryObjectuiv(pass->query, GL_QUERY_RESULT, &seen);
     return seen != 0;

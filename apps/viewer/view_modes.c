@@ -22,12 +22,35 @@ static void bind_lightmap(const mode_light *light)
     gl_lightmap_bind(&light->lightmap);
 }
 
-#define FIELD_USES (USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES | USES_FIELD)
-#define AMBIENT_MODE(MODEL)                                                                        \
-    {                                                                                              \
-        .fragment = &shader_field_frag, .uses = FIELD_USES, .method = ALP_RENDER_FIELD,            \
-        .field = {FIELD_OTHER, MODEL}, .prepare = mode_field_prepare, .bind = mode_field_bind      \
+static int prepare_ambient(session *s, const command_line *a, alp_render_options *o,
+                           mode_light *light)
+{
+    field_source source = {0};
+    const alp_result result =
+        field_fit(s, a, view_mode_of(a)->field.ambient, &o->lighting, &source);
+    if (result == ALP_OK) {
+        gl_ambient_create(source.field, &light->ambient);
     }
+    field_source_clear(&source);
+    return result == ALP_OK ? EXIT_DONE : session_end(s, result);
+}
+
+static void bind_lights(const mode_light *light)
+{
+    gl_lights_bind(&light->lights);
+}
+
+static void bind_ambient(const mode_light *light)
+{
+    gl_ambient_bind(&light->ambient);
+    gl_lights_bind(&light->lights);
+}
+
+enum {
+    LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
+    MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT
+};
 
 /// In the order of the choices of --with.
 static const view_mode modes[] = {
@@ -36,35 +59,64 @@ static const view_mode modes[] = {
      .method = ALP_RENDER_LIGHTMAP},
     {.fragment = &shader_albedo_frag, .uses = USES_METALS, .method = ALP_RENDER_ALBEDO},
     {.fragment = &shader_lightmap_frag,
-     .uses = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_ATLAS | USES_PANES,
+     .uses = MAPPED,
      .method = ALP_RENDER_LIGHTMAP,
      .prepare = prepare_lightmap,
      .bind = bind_lightmap},
+    {.fragment = &shader_direct_frag,
+     .uses = LIT | USES_DIRECT,
+     .method = ALP_RENDER_FIELD,
+     .bind = bind_lights},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .field = {FIELD_OTHER, ALP_AMBIENT_CONSTANT},
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .field = {FIELD_OTHER, ALP_AMBIENT_HEMISPHERE},
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .field = {FIELD_OTHER, ALP_AMBIENT_GROUND_MAP},
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .field = {FIELD_OTHER, ALP_AMBIENT_CUBE},
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
+    {.fragment = &shader_ambient_frag,
+     .uses = FITTED,
+     .method = ALP_RENDER_FIELD,
+     .field = {FIELD_OTHER, ALP_AMBIENT_ENVIRONMENT},
+     .prepare = prepare_ambient,
+     .bind = bind_ambient},
     {.fragment = &shader_field_frag,
-     .uses = FIELD_USES | USES_PROBES,
+     .uses = FITTED | USES_FIELD | USES_PROBES,
      .method = ALP_RENDER_FIELD,
      .field = {.model = FIELD_PROBES},
      .prepare = mode_field_prepare,
      .bind = mode_field_bind},
     {.fragment = &shader_field_frag,
-     .uses = FIELD_USES,
+     .uses = FITTED | USES_FIELD,
      .method = ALP_RENDER_FIELD,
      .field = {.model = FIELD_AMBIENCE},
      .prepare = mode_field_prepare,
      .bind = mode_field_bind,
      .move = mode_ambience_move},
     {.fragment = &shader_field_frag,
-     .uses = FIELD_USES,
+     .uses = FITTED | USES_FIELD,
      .method = ALP_RENDER_FIELD,
      .field = {.model = FIELD_LPV},
      .prepare = mode_field_prepare,
      .bind = mode_field_bind,
      .move = mode_lpv_move},
-    AMBIENT_MODE(ALP_AMBIENT_CONSTANT),
-    AMBIENT_MODE(ALP_AMBIENT_HEMISPHERE),
-    AMBIENT_MODE(ALP_AMBIENT_GROUND_MAP),
-    AMBIENT_MODE(ALP_AMBIENT_CUBE),
-    AMBIENT_MODE(ALP_AMBIENT_ENVIRONMENT),
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -86,12 +138,13 @@ int view_mode_check(const command_line *a)
                    {"--sun-size", OPTION_SUN_SIZE, USES_BACKGROUND},
                    {"--lamp", OPTION_LAMP, USES_LIGHTS},
                    {"--spot", OPTION_SPOT, USES_LIGHTS},
-                   {"--bounces", OPTION_BOUNCES, USES_LIGHTS},
+                   {"--bounces", OPTION_BOUNCES, USES_BOUNCES},
+                   {"--direct", OPTION_DIRECT, USES_SWITCH},
                    {"--size", OPTION_SIZE, USES_ATLAS},
                    {"--atlas", OPTION_ATLAS, USES_ATLAS},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
-                   {"--seed", OPTION_SEED, USES_ATLAS | USES_FIELD},
+                   {"--seed", OPTION_SEED, USES_SEED},
                    {"--read", OPTION_READ, USES_FIELD},
                    {"--probes", OPTION_PROBES, USES_PROBES},
                    {"--spacing", OPTION_SPACING, USES_PROBES},
@@ -115,6 +168,8 @@ bool view_mode_flies(const command_line *a)
 void mode_light_destroy(mode_light *light)
 {
     gl_lightmap_destroy(&light->lightmap);
+    gl_ambient_destroy(&light->ambient);
+    gl_lights_destroy(&light->lights);
     gl_field_destroy(&light->field);
     field_source_clear(&light->source);
 }

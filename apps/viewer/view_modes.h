@@ -3,34 +3,43 @@
 #ifndef VIEWER_VIEW_MODES_H
 #define VIEWER_VIEW_MODES_H
 
+#include "gl_ambient.h"
 #include "gl_field.h"
 #include "gl_lightmap.h"
+#include "gl_lights.h"
 #include "gl_program.h"
 #include "picture_fields.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
 typedef struct mode_light {
     gl_lightmap lightmap;
+    gl_ambient ambient;
     gl_field field;
     field_source source; // of `field`
+    gl_lights lights;
 } mode_light;
 
 /// Options that a mode reads.
 typedef enum mode_use {
     USES_METALS = 1,
     USES_BACKGROUND = 2, // sky and suns, which are seen behind the surfaces
-    USES_LIGHTS = 4,     // lamps, and bounces
-    USES_ATLAS = 8,
-    USES_PANES = 16, // not an option: light goes through panes
-    USES_FIELD = 32,
-    USES_PROBES = 64
+    USES_LIGHTS = 4,     // lamps
+    USES_BOUNCES = 8,
+    USES_ATLAS = 16,
+    USES_SEED = 32,
+    USES_SWITCH = 64, // --direct
+    USES_FIELD = 128,
+    USES_PROBES = 256,
+    // Not options.
+    USES_PANES = 512,  // light goes through panes
+    USES_DIRECT = 1024 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {
     const gl_shader *fragment;
     unsigned uses;            // of mode_use
     alp_render_method method; // of render, whose film the picture has
-    picture_field field;      // of USES_FIELD
+    picture_field field;      // of fields and models of ambient light
     /// Makes the light. NULL: there is none.
     /// @param options of the picture; camera and lighting may become those of the light
     /// @return EXIT_DONE, or an exit code after a message

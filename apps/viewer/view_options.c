@@ -82,8 +82,8 @@ int view_settings_read(const command_line *a, view_settings *s)
     code = code == EXIT_DONE ? check_image(a) : code;
     code = code == EXIT_DONE ? check_reference(a) : code;
     if (code == EXIT_DONE && !a->values[OPTION_WITH].given) {
-        code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, probes, ambience, lpv, "
-                                         "albedo, none or another");
+        code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, direct, hemisphere "
+                                         "or another");
     }
     code = code == EXIT_DONE ? view_mode_check(a) : code;
     if (code != EXIT_DONE) {

@@ -227,11 +227,14 @@ static int prepare(view_job *job)
     view_settings *v = &job->settings;
     session *s = &job->session;
     const double start = clock_seconds();
+    const bool direct =
+        (v->mode->uses & USES_SWITCH) == 0 || job->arguments->values[OPTION_DIRECT].choice == 1;
     drawing_options options = {.context = s->context,
                                .mode = v->mode,
                                .lighting = &v->render.lighting,
                                .width = v->render.width,
                                .height = v->render.height,
+                               .direct = direct,
                                .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
     v->render.progress = session_progress;
     v->render.progress_user = s;

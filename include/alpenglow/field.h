@@ -9,6 +9,7 @@
 
 #include <alpenglow/light.h>
 #include <alpenglow/scene.h>
+#include <alpenglow/shared_constants.h>
 
 ALP_BEGIN_DECLS
 
@@ -73,6 +74,27 @@ ALP_API alp_ambient_options alp_ambient_options_default(void);
 ALP_API ALP_NODISCARD alp_result alp_field_create_ambient(const alp_scene *scene,
                                                           const alp_ambient_options *options,
                                                           alp_field **field);
+
+/// Number of colours of a model, at most.
+#define ALP_AMBIENT_COLORS 9
+
+/// The colours of an ambient model, for hosts that evaluate it themselves. E is that of the model's
+/// formula, or 0 where the formula is below 0.
+typedef struct alp_ambient_info {
+    alp_ambient_model model;
+    uint32_t color_count; ///< of `colors`: 1, 2, 3, 6 or 9, in the order of the models
+    /// CONSTANT: c. HEMISPHERE: up, down. GROUND_MAP: up, down, s. CUBE: c(+x), c(−x), c(+y),
+    /// c(−y), c(+z), c(−z). ENVIRONMENT: c_lm at index l (l + 1) + m (alpenglow/sh.h).
+    float colors[ALP_AMBIENT_COLORS][3];
+    /// GROUND_MAP, else NULL: [ALP_GROUND_MAP_SIDE][ALP_GROUND_MAP_SIDE] texels of g by row and
+    /// column [W·m⁻²], valid while the field lives. g(x, z) is bilinear between the centres of
+    /// texels, and clamped beyond them. The centre of the first texel is at column and row 0.5.
+    const float (*ground)[3];
+    float ground_low[2];   ///< column = (x − ground_low[0]) ground_scale[0]
+    float ground_scale[2]; ///< row = (z − ground_low[1]) ground_scale[1]
+} alp_ambient_info;
+/// @param field of alp_field_create_ambient, else (also NULL) a zeroed struct
+ALP_API alp_ambient_info alp_field_get_ambient(const alp_field *field);
 
 /// The truth at points: path tracing of the light that fields hold.
 typedef struct alp_reference_options {

@@ -44,6 +44,9 @@
 #define ALP_ALBEDO_LIMIT 0.95
 #define ALP_ALBEDO_WITHOUT_MATERIAL 0.5
 
+// Texels along a side of the ground map, an ambient model (alpenglow/field.h).
+#define ALP_GROUND_MAP_SIDE 64
+
 // Film (alpenglow/film.h). Light above the brightest is cut off before a tone curve. REINHARD and
 // FILMIC have these white points where none is given. The background is a byte, encoded as sRGB.
 #define ALP_TONE_BRIGHTEST 1e30

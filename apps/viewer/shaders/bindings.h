@@ -13,8 +13,11 @@
 #define BUFFER_MATERIALS 5       // material [material + 1]; the last is that of no material
 #define BUFFER_MAP_UVS 6         // float [triangle][set][corner][2] of the light map
 #define BUFFER_MAP_TRIANGLES 7   // uint [triangle] page, and which sets count
-#define BUFFER_FIELD_VERTICES 12 // float [front, back][vertex][3] irradiance
-#define BUFFER_FIELD_OBJECTS 13  // vec4 [surface][9] spherical harmonics of irradiance
+#define BUFFER_LIGHTS 8          // light [light]
+#define BUFFER_SHADOW_VIEWS 9    // shadow_view [view]
+#define BUFFER_AMBIENT 10        // an ambient model
+#define BUFFER_FIELD_VERTICES 11 // float [front, back][vertex][3] irradiance
+#define BUFFER_FIELD_OBJECTS 12  // vec4 [surface][9] spherical harmonics of irradiance
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
 
 // Textures of a material.
@@ -30,15 +33,18 @@
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
 #define TEXTURE_DEPTH 13
-#define TEXTURE_FIELD 24
+#define TEXTURE_SUN_SHADOWS 14
+#define TEXTURE_LAMP_SHADOWS 15
+#define TEXTURE_FIELD 16
 
 // Uniforms of all passes that know the camera.
-#define UNIFORM_ORIGIN 0  // vec3, metres
-#define UNIFORM_FORWARD 1 // vec3, unit
-#define UNIFORM_RIGHT 2   // vec3: x of the picture at distance 1, from -1 to 1, times this
-#define UNIFORM_UP 3      // vec3: the same of y
-#define UNIFORM_NEAR 4    // float, metres
-#define UNIFORM_SIZE 5    // vec2, pixels
+#define UNIFORM_ORIGIN 0   // vec3, metres
+#define UNIFORM_FORWARD 1  // vec3, unit
+#define UNIFORM_RIGHT 2    // vec3: x of the picture at distance 1, from -1 to 1, times this
+#define UNIFORM_UP 3       // vec3: the same of y
+#define UNIFORM_NEAR 4     // float, metres; of a parallel view 1 / the far plane
+#define UNIFORM_SIZE 5     // vec2, pixels
+#define UNIFORM_PARALLEL 6 // bool, whether rays are parallel
 // Of pass_surfaces.
 #define UNIFORM_MATERIAL 8    // uint
 #define UNIFORM_VERTICES 9    // uint, vertices of the scene
@@ -48,8 +54,10 @@
 #define UNIFORM_MAP_SETS 15   // uint, coordinate sets of the light map: 1, or 3 that are blended
 #define UNIFORM_MAP_EQUAL 16  // bool, whether sets that count have equal weight
 #define UNIFORM_PEELED 17     // bool, whether only what lies behind TEXTURE_DEPTH is drawn
-#define UNIFORM_SURFACE 40    // uint, of the scene
-#define UNIFORM_FIELD_READ 41 // int, FIELD_...
+#define UNIFORM_LIGHTS 18     // uint, lights of BUFFER_LIGHTS
+#define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
+#define UNIFORM_SURFACE 20    // uint, of the scene
+#define UNIFORM_FIELD_READ 21 // int, FIELD_...
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
@@ -62,6 +70,11 @@
 #define UNIFORM_WHITE 10   // float, the L that becomes white
 #define UNIFORM_BALANCE 11 // mat3
 #define UNIFORM_DITHER 12  // bool, whether rounding is hashed
+
+// Kinds of light.
+#define LIGHT_POINT 0
+#define LIGHT_SPOT 1
+#define LIGHT_SUN 2
 
 // Kinds of sky.
 #define SKY_NONE 0

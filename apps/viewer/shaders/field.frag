@@ -1,6 +1,7 @@
 #version 450 core
-// Fields of light: emission + albedo / pi * irradiance, read at pixels, vertices or objects.
-#include "normals.glsl"
+// Fields of light: emission + albedo / pi * (irradiance of the field + irradiance straight from
+// lamps and suns). The field is read at pixels, vertices or objects.
+#include "lights.glsl"
 
 layout(binding = TEXTURE_FIELD) uniform sampler2D field_picture; // [pixel] irradiance
 layout(std430, binding = BUFFER_FIELD_OBJECTS) readonly buffer field_object_list {
@@ -28,13 +29,13 @@ vec3 object_irradiance(vec3 n)
     return max(e, vec3(0.0));
 }
 
-vec3 irradiance()
+vec3 field_irradiance(place p)
 {
     switch (field_read) {
     case FIELD_VERTEX:
         return vertex_irradiance[gl_FrontFacing ? 0 : 1];
     case FIELD_OBJECT:
-        return object_irradiance(shading_normal());
+        return object_irradiance(p.normal);
     default:
         return texelFetch(field_picture, ivec2(gl_FragCoord.xy), 0).rgb;
     }
@@ -43,6 +44,8 @@ vec3 irradiance()
 void main()
 {
     surface s = read_surface(true);
-    vec3 light = s.emission + s.kept * s.albedo / ALP_SH_A0 * irradiance();
+    place p = find_place();
+    vec3 irradiance = field_irradiance(p) + direct_irradiance(p);
+    vec3 light = s.emission + s.kept * s.albedo / ALP_SH_A0 * irradiance;
     picture = vec4(s.dark ? vec3(0.0) : light, 1.0);
 }

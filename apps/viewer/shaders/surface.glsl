@@ -9,7 +9,6 @@ layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmission_texture;
 
 layout(location = UNIFORM_METALS) uniform bool metals_black;
 
-in vec3 vertex_position; // metres
 in vec3 vertex_normal;
 in vec3 vertex_blend;
 in vec4 vertex_color;

@@ -21,7 +21,6 @@ layout(std430, binding = BUFFER_FIELD_VERTICES) readonly buffer field_vertex_lis
 
 layout(location = UNIFORM_FIELD_READ) uniform int field_read;
 
-out vec3 vertex_position;
 out vec3 vertex_irradiance[2]; // of fronts and backs
 out vec3 vertex_normal;
 out vec3 vertex_blend; // the normal in the frame of the object
@@ -58,12 +57,13 @@ void main()
     uint corner = uint(gl_VertexID) % 3u;
     triangle_index = uint(gl_VertexID) / 3u;
     uint vertex = triangles[gl_VertexID];
-    vertex_position = three(vertex, false);
-    vec3 from_camera = vertex_position - camera_origin;
+    vec3 from_camera = three(vertex, false) - camera_origin;
     float depth = dot(from_camera, camera_forward);
     // Depth is near / distance: float depths are then exact everywhere, and there is no far plane.
-    gl_Position = vec4(dot(from_camera, camera_right) / dot(camera_right, camera_right),
-                       dot(from_camera, camera_up) / dot(camera_up, camera_up), camera_near, depth);
+    vec2 at = vec2(dot(from_camera, camera_right) / dot(camera_right, camera_right),
+                   dot(from_camera, camera_up) / dot(camera_up, camera_up));
+    gl_Position = camera_parallel ? vec4(at, 1.0 - depth * camera_near, 1.0)
+                                  : vec4(at, camera_near, depth);
     vertex_normal = three(vertex, true);
     vertex_blend = normalize(vec3(dot(vertex_normal, axes[0]), dot(vertex_normal, axes[1]),
                                   dot(vertex_normal, axes[2])));

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TERM_LIMIT = ALPI_SH9_COUNT, POINT_LEAST = 16, POINT_LIMIT = 1000000 };
+enum { TERM_LIMIT = ALP_AMBIENT_COLORS, POINT_LEAST = 16, POINT_LIMIT = 1000000 };
 enum { GROUND_SAMPLES = 64 };
 
 typedef struct ambient_field {
@@ -268,4 +268,22 @@ alp_result alp_field_create_ambient(const alp_scene *scene, const alp_ambient_op
     }
     *field = &f->field;
     return ALP_OK;
+}
+
+alp_ambient_info alp_field_get_ambient(const alp_field *field)
+{
+    alp_ambient_info info = {.model = ALP_AMBIENT_CONSTANT};
+    if (field == NULL || field->kind->irradiance != evaluate) {
+        return info;
+    }
+    const ambient_field *f = (const ambient_field *)field;
+    info.model = f->model;
+    info.color_count = f->terms;
+    memcpy(info.colors, f->colors, sizeof info.colors);
+    if (f->ground != NULL) {
+        info.ground = (const float(*)[3])f->ground->texels;
+        memcpy(info.ground_low, f->ground->low, sizeof info.ground_low);
+        memcpy(info.ground_scale, f->ground->scale, sizeof info.ground_scale);
+    }
+    return info;
 }

@@ -5,7 +5,7 @@
 
 #include "fields/truth.h"
 
-enum { ALPI_GROUND_SIDE = 64 };
+enum { ALPI_GROUND_SIDE = ALP_GROUND_MAP_SIDE };
 
 /// Radiosity B = ρE + πLe [W·m⁻²] of the first front side below the top of the scene. Texels that
 /// see none hold 0.

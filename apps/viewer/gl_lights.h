@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Lamps and suns on the graphics card, and what their shadow maps hold.
+#ifndef VIEWER_GL_LIGHTS_H
+#define VIEWER_GL_LIGHTS_H
+
+#include "camera_view.h"
+
+#include <alpenglow/light.h>
+
+#include <epoxy/gl.h>
+
+/// A layer of a shadow map.
+typedef struct gl_shadow_view {
+    camera_view view;
+    GLuint map; // a depth array
+    GLint layer;
+} gl_shadow_view;
+
+typedef struct gl_lights {
+    GLuint lights, views;             // BUFFER_LIGHTS, BUFFER_SHADOW_VIEWS
+    GLuint sun_shadows, lamp_shadows; // arrays of 32-bit float depth, compared bilinearly
+    uint32_t count;                   // lights
+    gl_shadow_view *shadow_views;     // [view_count]
+    uint32_t view_count;
+} gl_lights;
+
+/// Lists the lights of the file and of the options, and makes empty shadow maps. A sun's map holds
+/// the scene. A point light has six maps, and so has a spot light wider than 120 degrees; others
+/// have one. The maps are smaller where lights are many.
+/// @return EXIT_DONE, or EXIT_FAILED after a message; gl_lights_destroy in both cases
+int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lighting,
+                     gl_lights *lights);
+void gl_lights_destroy(gl_lights *lights);
+/// Binds buffers and maps, and sets the uniform of the current program. Without lights: none.
+void gl_lights_bind(const gl_lights *lights);
+
+#endif

@@ -1,0 +1,40 @@
+// Where the camera sees a surface, as a ray finds it: precise however near the camera is.
+#include "camera.glsl"
+#include "surface.glsl"
+
+layout(std430, binding = BUFFER_POSITIONS) readonly buffer position_list { float positions[]; };
+layout(std430, binding = BUFFER_TRIANGLES) readonly buffer triangle_list { uint triangles[]; };
+
+struct place {
+    vec3 position;  // metres
+    vec3 geometric; // unit normal of the triangle, on the side of the camera
+    vec3 normal;    // unit normal that shades, on the same side
+};
+
+vec3 corner(uint k)
+{
+    uint at = 3u * triangles[3u * triangle_index + k];
+    return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
+}
+
+/// A shading normal that points below the triangle is replaced by the triangle's.
+place find_place()
+{
+    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
+    vec3 ray = camera_forward + at.x * camera_right - at.y * camera_up;
+    vec3 first = corner(0u), across = cross(corner(1u) - first, corner(2u) - first);
+    place p;
+    p.geometric = normalize(across);
+    p.position = camera_origin + dot(first - camera_origin, p.geometric) /
+                                     dot(ray, p.geometric) * ray;
+    float size = dot(vertex_normal, vertex_normal);
+    p.normal = size > 1e-12 ? vertex_normal * inversesqrt(size) : p.geometric;
+    if (dot(p.normal, p.geometric) <= 0.0) {
+        p.normal = p.geometric;
+    }
+    if (dot(ray, p.geometric) > 0.0) {
+        p.geometric = -p.geometric;
+        p.normal = -p.normal;
+    }
+    return p;
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// OpenGL of the viewer in tests, and pictures of it beside those of render.
+#ifndef TEST_GL_H
+#define TEST_GL_H
+
+#include "test_support.h"
+
+#include "drawing.h"
+
+/// Opens OpenGL without a window, once in a program.
+/// @return false: there is none, which was printed; call skip()
+bool test_gl_open(void);
+/// Fails the test if OpenGL has reported an error.
+void test_gl_check(void);
+/// Fails it if OpenGL has reported none.
+void test_gl_expect_failure(void);
+
+/// A picture of the viewer and that of render by one sample a pixel.
+typedef struct test_pair {
+    alp_image *drawn, *rendered;             // 8-bit RGB
+    alp_image *drawn_light, *rendered_light; // float RGBA
+    uint32_t width, height;
+    bool *alike; // [height][width] both see the same triangles in the 3 × 3 pixels around
+    double alike_share;
+} test_pair;
+
+/// Draws and renders.
+/// @param options method ALBEDO or LIGHTMAP, whose lightmap is baked already; the viewer's mode is
+///        that of the method
+test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options);
+void test_pair_destroy(test_pair *pair);
+
+/// Share of the pixels that are alike whose bytes differ by 1 at most.
+double test_pair_equal_share(const test_pair *pair);
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Programs of shaders, and errors of OpenGL.
+#include "test_gl.h"
+
+#include "gl_context.h"
+#include "options/options.h"
+#include "shader_list.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+/// Standard error of a call, as text.
+static FILE *caught;
+static int kept;
+
+static void catch_errors(void)
+{
+    caught = tmpfile();
+    assert_non_null(caught);
+    fflush(stderr);
+    kept = dup(STDERR_FILENO);
+    assert_true(dup2(fileno(caught), STDERR_FILENO) >= 0);
+}
+
+static void give_errors(char *text, size_t size)
+{
+    fflush(stderr);
+    assert_true(dup2(kept, STDERR_FILENO) >= 0);
+    close(kept);
+    rewind(caught);
+    text[fread(text, 1, size - 1, caught)] = '\0';
+    fclose(caught);
+}
+
+TEST(programs_of_the_viewer_compile)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    const gl_shader *const fragments[] = {&shader_none_frag, &shader_albedo_frag,
+                                          &shader_lightmap_frag};
+    for (size_t i = 0; i < sizeof fragments / sizeof *fragments; i++) {
+        const GLuint program = gl_program_create(&shader_surfaces_vert, fragments[i]);
+        assert_true(program != 0);
+        glDeleteProgram(program);
+    }
+    test_gl_check();
+}
+
+TEST(faults_of_shaders_name_file_and_line)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    static const char *const files[] = {"main.frag", "part.glsl"};
+    const gl_shader broken = {"#version 450 core\n"
+                              "#line 1 1\n"
+                              "float part() { return 1.0; }\n"
+                              "float wrong() { return unknown; }\n"
+                              "#line 3 0\n"
+                              "void main() {}\n",
+                              files, 2};
+    char text[2048];
+    catch_errors();
+    const GLuint program = gl_program_create(&shader_screen_vert, &broken);
+    give_errors(text, sizeof text);
+    assert_int_equal(program, 0);
+    assert_non_null(strstr(text, "alpenglow: part.glsl:2"));
+    assert_non_null(strstr(text, "unknown"));
+    test_gl_check();
+}
+
+TEST(errors_of_opengl_are_failures)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    char text[2048];
+    catch_errors();
+    glEnable(GL_TEXTURE_2D_ARRAY); // is nothing that can be enabled
+    test_gl_expect_failure();
+    give_errors(text, sizeof text);
+    assert_non_null(strstr(text, "alpenglow: OpenGL: "));
+    assert_true(test_gl_open()); // forgets it
+    test_gl_check();
+}
