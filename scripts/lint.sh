@@ -37,7 +37,7 @@ check_cppcheck() { # not tests, which are run, most of them under sanitizers too
     cppcheck --quiet --error-exitcode=1 -j "$jobs" --std=c11 --library=posix --inline-suppr \
         --enable=warning,performance,portability,style --suppress=missingIncludeSystem \
         --suppressions-list=scripts/cppcheck.suppressions -D__GNUC__ \
-        -I include -I build/dev/include -I src -I apps/alpenglow -I . src apps bench examples $(variants)
+        -I include -I build/dev/include -I src -I apps/alpenglow -I apps/viewer -I . src apps bench examples $(variants)
 }
 
 base_commit() { # nothing where there is no commit to compare with

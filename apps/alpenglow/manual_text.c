@@ -115,6 +115,21 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                       {"Test that it runs:", "alpenglow bench --quick"},
                       {"Measure the innermost loop on a scene of your own:",
                        "alpenglow bench transport --scene scene.glb"}}},
+    [COMMAND_VIEW] =
+        {.failed = "A file could not be read or written, the viewing program, alpenglow-view, is "
+                   "not installed, there is no OpenGL 4.5, the picture differs from the reference "
+                   "by more than the threshold, or --warnings-as-errors stopped at a warning.",
+         .files = {{"IMAGE.png",
+                    "The picture for display, 8-bit sRGB. Its texts Software, Command, "
+                    "Camera, Exposure and OpenGL say how it was made."},
+                   {"IMAGE.exr, IMAGE.hdr", "The picture in linear values."},
+                   {"FLIGHT.csv", "The flight: lines of t,px,py,pz,tx,ty,tz[,vfov]."},
+                   {"DIR/frame_0001.png", "The first picture of a flight."}},
+         .examples = {{"Draw a scene with a light map:",
+                       "alpenglow view builtin:cornell --with lightmap -o picture.png"},
+                      {"Draw it again, and compare:",
+                       "alpenglow view builtin:cornell --with lightmap -o again.png "
+                       "--reference picture.png --reference-threshold 0.01"}}},
     [COMMAND_COUNT] =
         {.failed = "The command failed. A message on standard error names the fault and its place.",
          .files = {{"*.gltf, *.glb, *.obj, *.dae, *.zae",

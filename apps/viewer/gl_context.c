@@ -84,7 +84,7 @@ static bool make_current(gl_context *c, const EGLint *version)
     const EGLint tiny[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
     const char *words = eglQueryString(c->display, EGL_EXTENSIONS);
     const bool surface = !has_word(words, "EGL_KHR_surfaceless_context");
-    const EGLConfig config = choose_config(c->display, surface);
+    EGLConfig config = choose_config(c->display, surface);
     if (config == EGL_NO_CONFIG_KHR && !has_word(words, "EGL_KHR_no_config_context")) {
         return false;
     }
@@ -166,7 +166,9 @@ static void GLAPIENTRY on_message(GLenum source, GLenum type, GLuint id, GLenum 
     (void)id, (void)severity, (void)length;
     // Faults of shaders are printed with their file and line by gl_program_create.
     if (type == GL_DEBUG_TYPE_ERROR && source != GL_DEBUG_SOURCE_SHADER_COMPILER) {
-        ((gl_context *)(uintptr_t)user)->failed = true;
+        gl_context *c = NULL;
+        memcpy(&c, &user, sizeof c); // it is ours to change
+        c->failed = true;
         fputs("alpenglow: OpenGL: ", stderr);
         print_clean(stderr, text);
         fputc('\n', stderr);

@@ -6,7 +6,6 @@
 #include "shaders/bindings.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 enum { CORNERS = 3, SETS = 3 };
 
@@ -45,7 +44,10 @@ static GLuint sets_of(const float *strongest, const float *sets)
     GLuint members = 0;
     bool found = false; // the strongest itself, or one that is like it
     for (GLuint k = 0; k < SETS; k++) {
-        const bool same = memcmp(sets + k * corners, strongest, corners * sizeof *sets) == 0;
+        bool same = true;
+        for (size_t i = 0; i < corners; i++) {
+            same = same && sets[k * corners + i] == strongest[i];
+        }
         members |= same && found ? 0u : 1u << k;
         found = found || same;
     }

@@ -38,6 +38,14 @@ ALP_API float *alp_image_floats(alp_image *image);
 /// The same pixels of either component type, to read. NULL for NULL.
 ALP_API const void *alp_image_pixels(const alp_image *image);
 
+/// Adds a text to an image, such as how it was made. A .png carries it as an iTXt chunk; other
+/// files do not. An image has as many as were added, in that order.
+/// @param key  1 to 79 printable ASCII characters, no blank at either end
+/// @param text UTF-8, copied
+/// @return ALP_OK; INVALID_ARGUMENT (NULL, a key of another kind); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_image_add_text(alp_image *image, const char *key,
+                                                    const char *text);
+
 /// Reads an image from a .png, .jpg, .exr or .hdr file. The first bytes decide the format, not the
 /// name.
 ///   PNG   16 bits are rounded to 8; a palette is expanded.

@@ -46,6 +46,7 @@ alp_result alp_image_create(alp_context *context, alp_image_info info, alp_image
 void alp_image_destroy(alp_image *image)
 {
     if (image != NULL) {
+        alpi_image_release_texts(image);
         alpi_release(image->context, image->pixels);
         alpi_release(image->context, image);
     }

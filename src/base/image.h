@@ -9,11 +9,21 @@
 enum { ALPI_IMAGE_SIDE_LIMIT = 65536 };
 #define ALPI_IMAGE_PIXEL_LIMIT ((uint64_t)1 << 28)
 
+/// A text of an image.
+typedef struct alpi_image_text {
+    char *key, *text;
+    struct alpi_image_text *next;
+} alpi_image_text;
+
 struct alp_image {
     alp_context *context;
     alp_image_info info;
-    void *pixels; // uint8_t or float, [height][width][channels]
+    void *pixels;           // uint8_t or float, [height][width][channels]
+    alpi_image_text *texts; // in their order; NULL without one
 };
+
+/// Releases the texts of an image.
+void alpi_image_release_texts(alp_image *image);
 
 /// Wrapping of a texture coordinate, as glTF names it.
 typedef enum alpi_wrap { ALPI_WRAP_REPEAT = 0, ALPI_WRAP_CLAMP, ALPI_WRAP_MIRROR } alpi_wrap;

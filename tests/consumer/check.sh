@@ -72,6 +72,9 @@ if [ "$step" = install ]; then
     cmake --install "$build" --prefix "$work/installed" >"$work/install.log"
     mv "$work/installed" "$work/moved" # nothing in it may know where it was installed
     [ "$("$work/moved/bin/alpenglow" --version | wc -l)" -ge 1 ] || fail "the command says nothing"
+    [ ! -e "$build/apps/alpenglow/alpenglow-view" ] ||
+        "$work/moved/bin/alpenglow-view" --help | grep '^Usage: alpenglow view' >/dev/null ||
+        fail "the viewer is not beside the command"
     exit 0
 fi
 

@@ -29,6 +29,7 @@ typedef struct png_job {
     // writing
     uint8_t *out;
     size_t out_capacity, out_size;
+    png_text *texts;
 } png_job;
 
 static void on_error(png_structp png, png_const_charp text)
@@ -52,6 +53,7 @@ static void release_job(png_job *job)
     alpi_release(job->context, job->rows);
     alp_image_destroy(job->image);
     alpi_release(job->context, job->out);
+    alpi_release(job->context, job->texts);
 }
 
 // --- reading ------------------------------------------------------------------------------------
@@ -173,6 +175,28 @@ static void flush_bytes(png_structp png)
     (void)png;
 }
 
+/// Hands the texts of an image to libpng, which copies them.
+static void set_texts(png_job *job, const alp_image *image)
+{
+    int count = 0;
+    for (const alpi_image_text *t = image->texts; t != NULL; t = t->next) {
+        count++;
+    }
+    job->texts = ALPI_NEW(job->context, png_text, (size_t)count + 1);
+    if (job->texts == NULL) {
+        job->code = ALP_ERROR_OUT_OF_MEMORY;
+        png_error(job->png, "out of memory");
+    }
+    png_text *at = job->texts;
+    for (const alpi_image_text *t = image->texts; t != NULL; t = t->next) {
+        *at++ = (png_text){.compression = PNG_ITXT_COMPRESSION_NONE,
+                           .key = t->key,
+                           .text = t->text,
+                           .itxt_length = strlen(t->text)};
+    }
+    png_set_text(job->png, job->info, job->texts, count);
+}
+
 static void write_image(png_job *job, const alp_image *image)
 {
     static const int color_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
@@ -184,6 +208,9 @@ static void write_image(png_job *job, const alp_image *image)
     png_set_write_fn(job->png, job, write_bytes, flush_bytes);
     png_set_IHDR(job->png, job->info, info->width, info->height, 8, color_types[info->channels - 1],
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (image->texts != NULL) {
+        set_texts(job, image);
+    }
     png_write_info(job->png, job->info);
     const uint8_t *pixels = image->pixels;
     size_t row_size = (size_t)info->width * info->channels;

@@ -25,7 +25,8 @@ SHOW = {
 # An example that runs is an example; how fine it bakes is not what is tested.
 SMALL = {"bake": "--size 32 --ao-samples 4 -q -f", "render": "--resolution 32x18 --samples 1 -q -f",
          "ambience": "--fps 1 --budget 8 --time 2 --errors off -q -f", "bench": "--quick",
-         "lpv": "--grid 8 -q -f"}
+         "lpv": "--grid 8 -q -f",
+         "view": "--size 32 --texel-samples 4 --resolution 32x18 -q -f"}
 
 
 def run(command, **options):

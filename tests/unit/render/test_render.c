@@ -70,6 +70,25 @@ TEST_WITH_CONTEXT(things_appear_where_the_camera_says, 2)
     alp_scene_destroy(scene);
 }
 
+TEST_WITH_CONTEXT(a_single_sample_goes_through_the_middle, 2)
+{
+    alp_scene *scene = make_scene(context);
+    alp_render_options options = look_ahead();
+    options.samples = 1;
+    for (int i = 0; i < 2; i++) { // the panel's left border, at x = -1, just left and right of it
+        alp_image *image = NULL;
+        options.camera.position[0] = i == 0 ? 0.049f : 0.051f; // half a pixel is .05 m
+        options.camera.target[0] = options.camera.position[0];
+        ASSERT_OK(context, alp_render(scene, &options, &image));
+        for (int y = 10; y < 20; y++) {
+            const float *p = alp_image_floats(image) + (size_t)4 * (80 * (size_t)y + 29);
+            ASSERT_NEAR(p[3], i == 0 ? 0.0 : 1.0, 0.0);
+        }
+        alp_image_destroy(image);
+    }
+    alp_scene_destroy(scene);
+}
+
 TEST_WITH_CONTEXT(occlusion_by_rays_meets_the_closed_form, 2)
 {
     // Seen from above, the floor beside a long wall of height 2 at distance 1: 1 − .276393202.

@@ -39,6 +39,95 @@ TEST_WITH_CONTEXT(png_round_trip, 1)
     }
 }
 
+typedef struct png_bytes {
+    const uint8_t *bytes;
+    size_t place;
+} png_bytes;
+
+static void take(png_structp png, png_bytep data, size_t length)
+{
+    png_bytes *from = png_get_io_ptr(png);
+    memcpy(data, from->bytes + from->place, length);
+    from->place += length;
+}
+
+static void read_texts(const uint8_t *bytes, png_structp *png, png_infop *info, png_textp *texts,
+                       int *count)
+{
+    png_bytes from = {bytes, 0};
+    *png = png_create_read_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
+    *info = png_create_info_struct(*png);
+    png_set_read_fn(*png, &from, take);
+    png_read_info(*png, *info); // texts stand before the pixels
+    png_get_text(*png, *info, texts, count);
+}
+
+static alp_image *small_image(alp_context *context)
+{
+    alp_image *image = NULL;
+    ASSERT_OK(context,
+              alp_image_create(context, (alp_image_info){2, 2, 3, ALP_COMPONENT_U8}, &image));
+    return image;
+}
+
+TEST_WITH_CONTEXT(png_carries_texts, 1)
+{
+    alp_image *image = small_image(context);
+    uint8_t *bytes;
+    size_t size;
+    png_structp png;
+    png_infop info;
+    png_textp texts;
+    int count = 0;
+    ASSERT_OK(context, alp_image_add_text(image, "Command", "view caf\xc3\xa9.glb"));
+    ASSERT_OK(context, alp_image_add_text(image, "Camera", ""));
+    ASSERT_OK(context, alpi_png_encode(image, &bytes, &size));
+    read_texts(bytes, &png, &info, &texts, &count);
+    assert_int_equal(count, 2);
+    assert_string_equal(texts[0].key, "Command");
+    assert_string_equal(texts[0].text, "view caf\xc3\xa9.glb");
+    assert_string_equal(texts[1].key, "Camera");
+    assert_string_equal(texts[1].text, "");
+    png_destroy_read_struct(&png, &info, NULL);
+    alpi_release(context, bytes);
+    alp_image_destroy(image);
+}
+
+TEST_WITH_CONTEXT(keys_that_png_does_not_know_are_refused, 1)
+{
+    static const char *const wrong[] = {"", " a", "a ", "a\n", "caf\xc3\xa9"};
+    char longest[81] = {0};
+    alp_image *image = small_image(context);
+    memset(longest, 'k', 79);
+    ASSERT_OK(context, alp_image_add_text(image, longest, "text"));
+    longest[79] = 'k';
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    assert_int_equal(alp_image_add_text(image, longest, "text"), code);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(alp_image_add_text(image, wrong[i], "text"), code);
+    }
+    assert_int_equal(alp_image_add_text(image, NULL, "text"), code);
+    assert_int_equal(alp_image_add_text(image, "key", NULL), code);
+    assert_int_equal(alp_image_add_text(NULL, "key", "text"), code);
+    alp_image_destroy(image);
+}
+
+TEST(texts_survive_failed_allocations)
+{
+    int left = 1000;
+    alp_context *context = test_context_failing(&left);
+    alp_image *image = small_image(context);
+    alp_result result = ALP_ERROR_OUT_OF_MEMORY;
+    for (int allowed = 0; result != ALP_OK; allowed++) {
+        left = allowed;
+        result = alp_image_add_text(image, "key", "text");
+        assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
+    }
+    left = 1000;
+    alp_image_destroy(image);
+    alp_context_destroy(context);
+}
+
 TEST_WITH_CONTEXT(floats_are_refused, 1)
 {
     alp_image *image;

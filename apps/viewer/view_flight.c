@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The pictures of a flight.
+#include "ambience/flight.h"
+#include "output.h"
+#include "picture.h"
+#include "view_job.h"
+#include "views.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct flight_job {
+    view_job *view;
+    const flight *path;
+    uint64_t count; // frames
+    double step;    // seconds from one to the next
+    alp_film_adaptation adaptation;
+} flight_job;
+
+/// Develops a frame. Automatic exposure adapts over the frames.
+/// @param seconds since the frame before   @param exposure out: EV
+static alp_result develop(flight_job *job, double seconds, alp_image **developed, double *exposure)
+{
+    const drawing *d = &job->view->drawing;
+    alp_context *context = job->view->session.context;
+    alp_film_options film = job->view->settings.film;
+    alp_image *light = NULL;
+    alp_result result = picture_read_light(context, &d->targets, &light);
+    if (result == ALP_OK && film.auto_exposure) {
+        result = alp_film_adapt(&job->adaptation, light, &film, seconds, &film.exposure);
+        film.auto_exposure = false;
+    }
+    alp_image_destroy(light);
+    if (result == ALP_OK) {
+        result = drawing_develop(d, context, &film, developed, NULL);
+    }
+    *exposure = film.exposure;
+    return result;
+}
+
+/// Brings the light to a moment of the flight.
+static int move_light(view_job *view, double time, const alp_camera *camera)
+{
+    const view_mode *mode = view->settings.mode;
+    const flight_run *run = view->drawing.light.source.flight;
+    int code = EXIT_DONE;
+    if (mode->move != NULL) {
+        code = mode->move(&view->session, time, camera, &view->drawing.light);
+    }
+    if (code == EXIT_DONE && run != NULL && run->day > 0.0) {
+        code = drawing_set_lighting(&view->drawing, view->session.context, &run->lighting);
+    }
+    return code;
+}
+
+static int draw_frame(flight_job *job, uint64_t frame, const char *file)
+{
+    view_job *view = job->view;
+    const double time = flight_start(job->path) + job->step * (double)frame;
+    const flight_camera at = flight_at(job->path, time);
+    const alp_camera camera = flight_view(&at);
+    alp_image *developed = NULL;
+    double exposure = 0.0;
+    const int moved = move_light(view, time, &camera);
+    if (moved != EXIT_DONE) {
+        return moved;
+    }
+    drawing_draw(&view->drawing, &camera);
+    const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
+                                      : session_end(&view->session, result);
+    alp_image_destroy(developed);
+    return code;
+}
+
+/// Draws a frame unless Ctrl-C has stopped the flight, or its file is there.
+static int go_on(flight_job *job, uint64_t frame)
+{
+    const option_value *v = job->view->arguments->values;
+    const alp_progress progress = {
+        .stage = "draw", .done = frame, .total = job->count, .seconds_left = -1.0};
+    char name[32];
+    if (!session_progress(&job->view->session, &progress)) {
+        return session_end(&job->view->session, ALP_ERROR_CANCELLED);
+    }
+    snprintf(name, sizeof name, "frame_%04llu", (unsigned long long)frame + 1);
+    char *file = pictures_path(v[OPTION_PICTURES].text, name);
+    int code = output_check(file, v[OPTION_FORCE].given);
+    code = code == EXIT_DONE ? draw_frame(job, frame, file) : code;
+    free(file);
+    return code;
+}
+
+static int draw_frames(flight_job *job)
+{
+    const double start = clock_seconds();
+    const double length = flight_end(job->path) - flight_start(job->path);
+    job->step = job->count > 1 ? length / (double)(job->count - 1) : 0.0;
+    int code = pictures_folder(job->view->arguments->values[OPTION_PICTURES].text);
+    for (uint64_t i = 0; i < job->count && code == EXIT_DONE; i++) {
+        code = go_on(job, i);
+    }
+    progress_clear(&job->view->session.progress);
+    if (code == EXIT_DONE) {
+        char what[64];
+        snprintf(what, sizeof what, "%llu pictures", (unsigned long long)job->count);
+        view_print_done(job->view, what, clock_seconds() - start);
+    }
+    return code;
+}
+
+int view_flight_read(view_job *view)
+{
+    const command_line *a = view->arguments;
+    const alp_scene_info info = alp_scene_get_info(view->session.scene);
+    if (view_mode_flies(a)) { // the volume reads it
+        return EXIT_DONE;
+    }
+    const int code = flight_read(a->values[OPTION_PATH].text, info.origin, &view->path);
+    if (code == EXIT_DONE) {
+        const flight_camera first = flight_at(&view->path, flight_start(&view->path));
+        view->settings.render.camera = flight_view(&first);
+    }
+    return code;
+}
+
+int view_flight(view_job *view)
+{
+    const flight_run *run = view->drawing.light.source.flight;
+    flight_job job = {.view = view,
+                      .path = run != NULL ? &run->path : &view->path,
+                      .count = view->arguments->values[OPTION_FRAMES].whole,
+                      .adaptation = alp_film_adaptation_default()};
+    return draw_frames(&job);
+}

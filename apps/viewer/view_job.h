@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// A run of view, and its two kinds of output.
+#ifndef VIEWER_VIEW_JOB_H
+#define VIEWER_VIEW_JOB_H
+
+#include "drawing.h"
+#include "gl_context.h"
+#include "view_options.h"
+
+typedef struct view_job {
+    const command_line *arguments;
+    view_settings settings;
+    session session;
+    gl_context gl;
+    drawing drawing;
+    flight path;          // of the camera; empty where the light has the flight
+    alp_image *reference; // NULL without one
+    double prepare_seconds;
+} view_job;
+
+/// Writes a picture of -o. @return the exit code
+int view_picture(view_job *job);
+/// Reads the flight, and takes the view of its beginning.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int view_flight_read(view_job *job);
+/// Writes the pictures of a flight. @return the exit code
+int view_flight(view_job *job);
+
+/// Writes an image, with its texts where it is developed, unless OpenGL has failed.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int view_save(view_job *job, const alp_camera *camera, double exposure, alp_image *image,
+              const char *path);
+/// Prints the summary of a run.
+void view_print_done(const view_job *job, const char *what, double draw_seconds);
+
+#endif
