@@ -13,7 +13,7 @@
 /// Sides of shadow maps in texels, and texels of all maps of a kind. A texel has 4 bytes.
 enum { SUN_SIDE = 4096, LAMP_SIDE = 2048, LEAST_SIDE = 64, TEXEL_LIMIT = 1 << 26 };
 
-/// Wider cones have six views. Radians from the axis.
+/// Lamps that light more have six views. Radians from the axis of a cone.
 static const double WIDEST_CONE = 1.0471975511965976;
 
 /// shaders/lights.glsl, std430.
@@ -105,13 +105,13 @@ static bool is_sun(const alp_light_info *l)
     return l->kind == ALP_LIGHT_DIRECTIONAL;
 }
 
-static uint32_t views_of(const alp_light_info *l)
+static uint32_t views_of(const alp_scene_info *info, const alp_light_info *l)
 {
-    const bool narrow = l->kind == ALP_LIGHT_SPOT && (double)l->outer_cone <= WIDEST_CONE;
-    return is_sun(l) || narrow ? 1 : LIGHT_FACES;
+    return is_sun(l) || light_cone_of(info, l).outer <= WIDEST_CONE ? 1 : LIGHT_FACES;
 }
 
-static shader_light pack_light(const alp_light_info *l, uint32_t first)
+/// @param first of its views   @param views their number
+static shader_light pack_light(const alp_light_info *l, uint32_t first, uint32_t views)
 {
     const double outer = cos((double)l->outer_cone), inner = cos((double)l->inner_cone);
     shader_light s = {
@@ -123,7 +123,7 @@ static shader_light pack_light(const alp_light_info *l, uint32_t first)
                 : l->kind == ALP_LIGHT_SPOT ? LIGHT_SPOT
                                             : LIGHT_POINT,
         .first = first,
-        .views = views_of(l)};
+        .views = views};
     for (int k = 0; k < 3; k++) {
         s.color[k] = l->intensity * l->color[k];
     }
@@ -159,13 +159,20 @@ static uint32_t make_maps(GLuint *maps, uint32_t layers, uint32_t side)
     return side;
 }
 
+/// Sides of the maps of suns and of lamps.
+typedef struct map_sides {
+    uint32_t sun, lamp;
+} map_sides;
+
 static camera_view view_of(const alp_scene_info *info, const alp_light_info *l, int face,
-                           uint32_t side)
+                           map_sides sides)
 {
-    return is_sun(l) ? light_view_of_sun(info, l->direction, side)
-           : views_of(l) == 1
-               ? light_view_of_cone(info, l->position, l->direction, (double)l->outer_cone, side)
-               : light_view_of_face(info, l->position, face, side);
+    if (is_sun(l)) {
+        return light_view_of_sun(info, l->direction, sides.sun);
+    }
+    const light_cone cone = light_cone_of(info, l);
+    return views_of(info, l) == 1 ? light_view_of_cone(info, l->position, &cone, sides.lamp)
+                                  : light_view_of_face(info, l->position, face, sides.lamp);
 }
 
 static shader_view pack_view(const gl_shadow_view *v)
@@ -198,15 +205,9 @@ static GLuint load(const void *data, size_t size)
     return buffer;
 }
 
-/// Sides of the maps of suns and of lamps.
-typedef struct map_sides {
-    uint32_t sun, lamp;
-} map_sides;
-
-static void load_lights(const alp_scene *scene, const light_list *list, map_sides sides,
+static void load_lights(const alp_scene_info *info, const light_list *list, map_sides sides,
                         gl_lights *d)
 {
-    const alp_scene_info info = alp_scene_get_info(scene);
     shader_light *lights = allocate_or_exit(NULL, list->count * sizeof *lights + 1);
     shader_view *views = allocate_or_exit(NULL, d->view_count * sizeof *views + 1);
     uint32_t at = 0;
@@ -214,12 +215,13 @@ static void load_lights(const alp_scene *scene, const light_list *list, map_side
     d->shadow_views = allocate_or_exit(NULL, d->view_count * sizeof *d->shadow_views + 1);
     for (uint32_t i = 0; i < list->count; i++) {
         const alp_light_info *l = &list->lights[i];
-        lights[i] = pack_light(l, at);
-        for (uint32_t k = 0; k < views_of(l); k++, at++) {
-            d->shadow_views[at] = (gl_shadow_view){
-                .view = view_of(&info, l, (int)k, is_sun(l) ? sides.sun : sides.lamp),
-                .map = is_sun(l) ? d->sun_shadows : d->lamp_shadows,
-                .layer = is_sun(l) ? suns++ : lamps++};
+        const uint32_t count = views_of(info, l);
+        lights[i] = pack_light(l, at, count);
+        for (uint32_t k = 0; k < count; k++, at++) {
+            d->shadow_views[at] =
+                (gl_shadow_view){.view = view_of(info, l, (int)k, sides),
+                                 .map = is_sun(l) ? d->sun_shadows : d->lamp_shadows,
+                                 .layer = is_sun(l) ? suns++ : lamps++};
             views[at] = pack_view(&d->shadow_views[at]);
         }
     }
@@ -234,12 +236,13 @@ static void load_lights(const alp_scene *scene, const light_list *list, map_side
 
 int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lighting, gl_lights *d)
 {
+    const alp_scene_info info = alp_scene_get_info(scene);
     light_list list = list_lights(scene, lighting);
     uint32_t suns = 0;
     *d = (gl_lights){0};
     for (uint32_t i = 0; i < list.count; i++) {
         suns += is_sun(&list.lights[i]) ? 1 : 0;
-        d->view_count += views_of(&list.lights[i]);
+        d->view_count += views_of(&info, &list.lights[i]);
     }
     map_sides sides = {.sun = make_maps(&d->sun_shadows, suns, suns > 0 ? SUN_SIDE : 1)};
     if (sides.sun > 0) {
@@ -248,7 +251,7 @@ int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lightin
     }
     const bool made = sides.sun > 0 && sides.lamp > 0;
     if (made) {
-        load_lights(scene, &list, sides, d);
+        load_lights(&info, &list, sides, d);
     }
     free(list.lights);
     return made ? EXIT_DONE : EXIT_FAILED;

@@ -3,7 +3,7 @@
 #ifndef VIEWER_GL_LIGHTS_H
 #define VIEWER_GL_LIGHTS_H
 
-#include "camera_view.h"
+#include "light_views.h"
 
 #include <alpenglow/light.h>
 
@@ -25,8 +25,8 @@ typedef struct gl_lights {
 } gl_lights;
 
 /// Lists the lights of the file and of the options, and makes empty shadow maps. A sun's map holds
-/// the scene. A point light has six maps, and so has a spot light wider than 120 degrees; others
-/// have one. The maps are smaller where lights are many.
+/// the scene. A lamp has six maps around it, or one where what it lights lies in a cone of 120
+/// degrees or less. The maps are smaller where lights are many.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; gl_lights_destroy in both cases
 int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lighting,
                      gl_lights *lights);

@@ -109,11 +109,30 @@ static camera_view make_lamp_view(const alp_scene_info *info, const float positi
     return view;
 }
 
-camera_view light_view_of_cone(const alp_scene_info *info, const float position[3],
-                               const float direction[3], double outer, uint32_t side)
+light_cone light_cone_of(const alp_scene_info *info, const alp_light_info *lamp)
 {
-    const double forward[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
-    return make_lamp_view(info, position, forward, tan(outer), side);
+    light_cone cone = {.outer = M_PI};
+    double way[3];
+    for (int k = 0; k < 3; k++) {
+        const double middle = 0.5 * ((double)info->bounds_min[k] + (double)info->bounds_max[k]);
+        way[k] = middle - (double)lamp->position[k];
+    }
+    const double distance = sqrt(dot(way, way)), radius = 0.5 * diagonal_of(info);
+    if (distance > radius) {
+        cone.outer = asin(fmax(radius / distance, 1e-6));
+    }
+    const bool own = lamp->kind == ALP_LIGHT_SPOT && (double)lamp->outer_cone < cone.outer;
+    cone.outer = own ? (double)lamp->outer_cone : cone.outer;
+    for (int k = 0; k < 3; k++) {
+        cone.axis[k] = own ? (double)lamp->direction[k] : way[k] / fmax(distance, 1e-30);
+    }
+    return cone;
+}
+
+camera_view light_view_of_cone(const alp_scene_info *info, const float position[3],
+                               const light_cone *cone, uint32_t side)
+{
+    return make_lamp_view(info, position, cone->axis, tan(cone->outer), side);
 }
 
 camera_view light_view_of_face(const alp_scene_info *info, const float position[3], int face,

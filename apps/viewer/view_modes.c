@@ -35,6 +35,19 @@ static int prepare_ambient(session *s, const command_line *a, alp_render_options
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
 }
 
+static int prepare_direct(session *s, const command_line *a, alp_render_options *o,
+                          mode_light *light)
+{
+    (void)a;
+    (void)o;
+    if (light->lights.count == 0) {
+        session_warn(s, "no-light", "--with direct",
+                     "no lamp and no sun shines, and surfaces have their emission alone; give "
+                     "--sun, --lamp or --spot");
+    }
+    return EXIT_DONE;
+}
+
 static void bind_lights(const mode_light *light)
 {
     gl_lights_bind(&light->lights);
@@ -66,6 +79,7 @@ static const view_mode modes[] = {
     {.fragment = &shader_direct_frag,
      .uses = LIT | USES_DIRECT,
      .method = ALP_RENDER_FIELD,
+     .prepare = prepare_direct,
      .bind = bind_lights},
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,

@@ -58,17 +58,17 @@ uint shadow_view_of(light l, vec3 from)
 /// The point is moved along the normal n, so that a plane does not shade itself. The centres of the
 /// four texels lie within sqrt(2) texels of width w. Over them the depth of the plane changes by
 /// sqrt(2) w tan a at most, with the angle a between n and the axis of the view. Moved by d, the
-/// point lies d / cos a before the plane: d = sqrt(2) w sin a is enough. Some of w is added for
-/// rounding.
+/// point lies d / cos a before the plane: d = sqrt(2) w sin a is enough. Shares of w and of the
+/// distance are added for rounding.
 float find_visibility(light l, place p)
 {
     bool sun = l.kind == LIGHT_SUN;
     shadow_view v = shadow_views[shadow_view_of(l, p.position - l.position.xyz)];
     vec3 from = p.position - v.origin.xyz;
-    float width = v.right.w * (sun ? 1.0 : dot(from, v.forward.xyz));
+    float distance = dot(from, v.forward.xyz), width = v.right.w * (sun ? 1.0 : distance);
     float sine = length(cross(p.geometric, v.forward.xyz));
-    from += width * (1.41421356 * sine + 0.05) * p.geometric;
-    float distance = dot(from, v.forward.xyz);
+    from += (width * (1.41421356 * sine + 0.05) + 1e-6 * distance) * p.geometric;
+    distance = dot(from, v.forward.xyz);
     vec2 at = vec2(dot(from, v.right.xyz), -dot(from, v.up.xyz)) / (sun ? 1.0 : distance);
     vec3 texel = vec3(0.5 + 0.5 * at, v.origin.w);
     return sun ? texture(sun_shadows, vec4(texel, 1.0 - distance * v.forward.w))

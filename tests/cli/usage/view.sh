@@ -26,4 +26,9 @@ done
 for option in "--sky 1,1,1" "--sun 0,45,1" "--sun-size 1"; do
     try $view --with albedo $option
 done
+for option in "--direct off" "--bounces 1" "--seed 1" "--size 64"; do
+    try $view --with direct $option
+done
+try $view --with lightmap --direct off
+try $view --with hemisphere --size 64
 try $view --with lightmap --samples 4

@@ -6,6 +6,7 @@
 #include "picture.h"
 #include "render/camera_rays.h"
 #include "scene/scene.h"
+#include "test_shadows.h"
 #include "trace/trace.h"
 
 #include <stdio.h>
@@ -53,7 +54,7 @@ static void trace_triangles(const alp_scene *scene, const alp_render_options *o,
     alpi_tracer *tracer = NULL;
     alpi_view view;
     alpi_rays rays;
-    const alpi_trace_filter filter = {.panes = o->method == ALP_RENDER_LIGHTMAP};
+    const alpi_trace_filter filter = {.panes = o->method != ALP_RENDER_ALBEDO};
     ASSERT_OK(scene->context, alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     ASSERT_OK(scene->context, alpi_view_place(scene->context, camera, o->width, o->height, &view));
     view.centred = true;
@@ -98,46 +99,108 @@ static void compare_triangles(const alp_scene *scene, const alp_render_options *
     free(traced);
 }
 
+/// Whether the pixels around one have its value.
+static bool is_even(const uint32_t *values, uint32_t x, uint32_t y, const alp_render_options *o)
+{
+    for (uint32_t row = y > 0 ? y - 1 : 0; row <= y + 1 && row < o->height; row++) {
+        for (uint32_t column = x > 0 ? x - 1 : 0; column <= x + 1 && column < o->width; column++) {
+            if (values[(size_t)row * o->width + column] != values[(size_t)y * o->width + x]) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/// Takes out pixels near the edge of a shadow: around them other lights arrive.
+static void compare_shadows(const alp_scene *scene, const alp_render_options *o,
+                            const alp_camera *camera, test_pair *pair)
+{
+    const uint32_t count = o->width * o->height;
+    uint32_t *reached = malloc(count * sizeof *reached), alike = 0;
+    assert_non_null(reached);
+    test_shadows_trace(scene, o, camera, reached);
+    for (uint32_t i = 0; i < count; i++) {
+        pair->alike[i] = pair->alike[i] && is_even(reached, i % o->width, i / o->width, o);
+        alike += pair->alike[i] ? 1 : 0;
+    }
+    pair->alike_share = (double)alike / (double)count;
+    free(reached);
+}
+
 // --- both pictures -------------------------------------------------------------------------------
 
-static const view_mode *mode_of(alp_render_method method)
+static const view_mode *mode_of(const alp_render_options *o)
 {
     command_line line = {.command = COMMAND_VIEW};
-    enum { ALBEDO = 1, LIGHTMAP = 2 }; // choices of --with
-    line.values[OPTION_WITH].choice = method == ALP_RENDER_ALBEDO ? ALBEDO : LIGHTMAP;
+    enum { ALBEDO = 1, LIGHTMAP, DIRECT, AMBIENT }; // choices of --with
+    const alp_ambient_info info = alp_field_get_ambient(o->field);
+    line.values[OPTION_WITH].choice = o->method == ALP_RENDER_ALBEDO     ? ALBEDO
+                                      : o->method == ALP_RENDER_LIGHTMAP ? LIGHTMAP
+                                      : info.color_count == 0            ? DIRECT
+                                                              : AMBIENT + (int)info.model;
     return view_mode_of(&line);
 }
 
+/// The mode of a name.
+static const view_mode *find_mode(const char *name)
+{
+    command_line line = {.command = COMMAND_VIEW};
+    const char *at = option_find(COMMAND_VIEW, "--with", 6)->choices;
+    const size_t length = strlen(name);
+    while (strncmp(at, name, length) != 0 || (at[length] != '|' && at[length] != '\0')) {
+        at = strchr(at, '|') + 1;
+        line.values[OPTION_WITH].choice++;
+    }
+    return view_mode_of(&line);
+}
+
+/// The light of the mode of render's method.
+static mode_light light_of(const alp_scene *scene, const alp_render_options *o)
+{
+    mode_light light = {0};
+    if (o->lightmap != NULL) {
+        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &light.lightmap),
+                         EXIT_DONE);
+    }
+    if (o->field != NULL) {
+        gl_ambient_create(o->field, &light.ambient);
+    }
+    return light;
+}
+
 static void draw(const alp_scene *scene, const alp_render_options *o, const alp_camera *camera,
-                 alp_film_options film, test_pair *pair)
+                 alp_film_options film, const drawing_options *mode, test_pair *pair)
 {
     const drawing_options options = {.context = scene->context,
-                                     .mode = mode_of(o->method),
+                                     .mode = mode->mode,
+                                     .light = mode->light,
                                      .lighting = &o->lighting,
                                      .width = o->width,
                                      .height = o->height,
+                                     .direct = !o->without_direct,
                                      .metals_black = scene->metals_black,
                                      .level_zero = true};
     drawing d;
     uint32_t *triangles = malloc((size_t)o->width * o->height * sizeof *triangles);
     assert_non_null(triangles);
     assert_int_equal(drawing_create(scene, &options, &d), EXIT_DONE);
-    if (o->lightmap != NULL) {
-        assert_int_equal(
-            gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &d.light.lightmap), EXIT_DONE);
-    }
     drawing_draw(&d, camera);
     ASSERT_OK(scene->context,
               drawing_develop(&d, scene->context, &film, &pair->drawn, &pair->drawn_light));
     picture_read_triangles(&d.targets, triangles);
     test_gl_check();
     compare_triangles(scene, o, camera, triangles, pair);
+    if (o->field != NULL) {
+        compare_shadows(scene, o, camera, pair);
+    }
     free(triangles);
     drawing_destroy(&d);
     test_gl_check();
 }
 
-test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options)
+static test_pair make_pair(const drawing_options *mode, const alp_scene *scene,
+                           const alp_render_options *options)
 {
     test_pair pair = {.width = options->width, .height = options->height};
     alp_render_options o = *options;
@@ -150,8 +213,20 @@ test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options
     ASSERT_OK(scene->context,
               alp_film_develop(pair.rendered_light, &film, &pair.rendered, &film.exposure));
     film.auto_exposure = false; // the same of both
-    draw(scene, &o, &camera, film, &pair);
+    draw(scene, &o, &camera, film, mode, &pair);
     return pair;
+}
+
+test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options)
+{
+    const drawing_options mode = {.mode = mode_of(options), .light = light_of(scene, options)};
+    return make_pair(&mode, scene, options);
+}
+
+test_pair test_gl_pair_in(const char *mode, mode_light light, const alp_scene *scene,
+                          const alp_render_options *options)
+{
+    return make_pair(&(drawing_options){.mode = find_mode(mode), .light = light}, scene, options);
 }
 
 void test_pair_destroy(test_pair *pair)

@@ -20,14 +20,20 @@ typedef struct test_pair {
     alp_image *drawn, *rendered;             // 8-bit RGB
     alp_image *drawn_light, *rendered_light; // float RGBA
     uint32_t width, height;
-    bool *alike; // [height][width] both see the same triangles in the 3 × 3 pixels around
+    /// [height][width] Both see the same triangles in the 3 × 3 pixels around. Of FIELD also: the
+    /// same lights reach these pixels by rays, so that no edge of a shadow is near.
+    bool *alike;
     double alike_share;
 } test_pair;
 
 /// Draws and renders.
-/// @param options method ALBEDO or LIGHTMAP, whose lightmap is baked already; the viewer's mode is
-///        that of the method
+/// @param options method ALBEDO, LIGHTMAP, whose lightmap is baked already, or FIELD; the viewer's
+///        mode is that of the method. That of fields which are no ambient model is direct.
 test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options);
+/// The same in a mode of --with.
+/// @param light of the mode; it is destroyed
+test_pair test_gl_pair_in(const char *mode, mode_light light, const alp_scene *scene,
+                          const alp_render_options *options);
 void test_pair_destroy(test_pair *pair);
 
 /// Share of the pixels that are alike whose bytes differ by 1 at most.
