@@ -10,7 +10,7 @@ enum { LAYER_LIMIT = 4096 };
 /// Whether a field is read on the processor at every pixel.
 static bool reads_pixels(const drawing *d)
 {
-    return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == FIELD_PIXEL;
+    return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == READ_PIXEL;
 }
 
 /// Draws the shadows of what does not move once.

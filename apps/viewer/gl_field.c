@@ -28,10 +28,10 @@ void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_
     const size_t vertices = alp_scene_get_geometry(scene).vertex_count;
     enum { OBJECT_SIZE = FIELD_OBJECT_COEFFICIENTS * 4 * sizeof(float) };
     *d = (gl_field){.read = read, .workers = 1};
-    d->vertices = make_buffer(read == FIELD_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
-    d->objects = make_buffer(read == FIELD_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
+    d->vertices = make_buffer(read == READ_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
+    d->objects = make_buffer(read == READ_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
     glCreateTextures(GL_TEXTURE_2D, 1, &d->pixels);
-    const bool pixels = read == FIELD_PIXEL;
+    const bool pixels = read == READ_PIXEL;
     glTextureStorage2D(d->pixels, 1, GL_RGBA32F, pixels ? (GLsizei)width : 1,
                        pixels ? (GLsizei)height : 1);
 }
@@ -42,6 +42,7 @@ void gl_field_destroy(gl_field *d)
         glDeleteBuffers(1, &d->vertices);
         glDeleteBuffers(1, &d->objects);
         glDeleteTextures(1, &d->pixels);
+        gl_probes_destroy(&d->probes);
     }
     *d = (gl_field){0};
 }
@@ -50,6 +51,14 @@ void gl_field_set(gl_field *d, const alp_field *field)
 {
     d->field = field;
     d->changed = true;
+}
+
+void gl_field_set_probes(gl_field *d, const alp_probes *probes, const double origin[3])
+{
+    if (d->read == READ_PIXEL && gl_probes_can_read(probes)) {
+        gl_probes_create(probes, origin, &d->probes);
+        d->read = READ_PROBES;
+    }
 }
 
 // --- vertices ------------------------------------------------------------------------------------
@@ -106,19 +115,20 @@ static void read_objects(const gl_field *d, const alp_scene *scene)
 
 void gl_field_update(gl_field *d, const alp_scene *scene)
 {
-    if (d->changed && d->read == FIELD_VERTEX) {
+    if (d->changed && d->read == READ_VERTEX) {
         read_vertices(d, scene);
     }
-    if (d->changed && d->read == FIELD_OBJECT) {
+    if (d->changed && d->read == READ_OBJECT) {
         read_objects(d, scene);
     }
     d->changed = false;
 }
 
-void gl_field_bind(const gl_field *d)
+void gl_field_bind(const gl_field *d, GLuint program)
 {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_FIELD_VERTICES, d->vertices);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_FIELD_OBJECTS, d->objects);
     glBindTextureUnit(TEXTURE_FIELD, d->pixels);
     glUniform1i(UNIFORM_FIELD_READ, d->read);
+    gl_probes_bind(&d->probes, program);
 }

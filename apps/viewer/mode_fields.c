@@ -20,12 +20,17 @@ int mode_field_prepare(session *s, const command_line *a, alp_render_options *o,
         light->field.workers = alp_context_worker_count(s->context);
         gl_field_set(&light->field, light->source.field);
     }
+    if (code == EXIT_DONE && field.model == FIELD_PROBES &&
+        a->values[OPTION_LOOKUP].choice == (int)ALP_LOOKUP_OURS) {
+        gl_field_set_probes(&light->field, light->source.probes,
+                            alp_scene_get_info(s->scene).origin);
+    }
     return code;
 }
 
-void mode_field_bind(const mode_light *light)
+void mode_field_bind(const mode_light *light, GLuint program)
 {
-    gl_field_bind(&light->field);
+    gl_field_bind(&light->field, program);
     gl_lights_bind(&light->lights);
 }
 

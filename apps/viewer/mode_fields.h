@@ -8,7 +8,7 @@
 /// The parts of a view_mode.
 int mode_field_prepare(session *s, const command_line *arguments, alp_render_options *options,
                        mode_light *light);
-void mode_field_bind(const mode_light *light);
+void mode_field_bind(const mode_light *light, GLuint program);
 int mode_ambience_move(session *s, double time, const alp_camera *camera, mode_light *light);
 int mode_lpv_move(session *s, double time, const alp_camera *camera, mode_light *light);
 

@@ -17,8 +17,9 @@ static int prepare_lightmap(session *s, const command_line *a, alp_render_option
     return code;
 }
 
-static void bind_lightmap(const mode_light *light)
+static void bind_lightmap(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_lightmap_bind(&light->lightmap);
 }
 
@@ -39,8 +40,9 @@ static int prepare_direct(session *s, const command_line *a, alp_render_options 
                           mode_light *light)
 {
     (void)a;
-    (void)o;
-    if (light->lights.count == 0) {
+    (void)light;
+    const bool sun = o->lighting.sun.illuminance > 0.0f;
+    if (alp_scene_get_info(s->scene).lights == 0 && o->lighting.lamp_count == 0 && !sun) {
         session_warn(s, "no-light", "--with direct",
                      "no lamp and no sun shines, and surfaces have their emission alone; give "
                      "--sun, --lamp or --spot");
@@ -48,13 +50,15 @@ static int prepare_direct(session *s, const command_line *a, alp_render_options 
     return EXIT_DONE;
 }
 
-static void bind_lights(const mode_light *light)
+static void bind_lights(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_lights_bind(&light->lights);
 }
 
-static void bind_ambient(const mode_light *light)
+static void bind_ambient(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_ambient_bind(&light->ambient);
     gl_lights_bind(&light->lights);
 }

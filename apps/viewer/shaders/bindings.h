@@ -36,6 +36,8 @@
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
 #define TEXTURE_FIELD 16
+#define TEXTURE_PROBE_LIGHT 17
+#define TEXTURE_PROBE_MOMENTS 18
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -57,7 +59,7 @@
 #define UNIFORM_LIGHTS 18     // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
 #define UNIFORM_SURFACE 20    // uint, of the scene
-#define UNIFORM_FIELD_READ 21 // int, FIELD_...
+#define UNIFORM_FIELD_READ 21 // int, READ_...
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
@@ -82,9 +84,10 @@
 #define SKY_IMAGE 2
 
 // Where a field is read; the order of --read.
-#define FIELD_PIXEL 0  // in TEXTURE_FIELD
-#define FIELD_VERTEX 1 // in BUFFER_FIELD_VERTICES
-#define FIELD_OBJECT 2 // in BUFFER_FIELD_OBJECTS
+#define READ_PIXEL 0  // in TEXTURE_FIELD
+#define READ_VERTEX 1 // in BUFFER_FIELD_VERTICES
+#define READ_OBJECT 2 // in BUFFER_FIELD_OBJECTS
+#define READ_PROBES 3 // at pixels too, from the textures of probes
 
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u

@@ -2,6 +2,7 @@
 // Fields of light: emission + albedo / pi * (irradiance of the field + irradiance straight from
 // lamps and suns). The field is read at pixels, vertices or objects.
 #include "lights.glsl"
+#include "probes.glsl"
 
 layout(binding = TEXTURE_FIELD) uniform sampler2D field_picture; // [pixel] irradiance
 layout(std430, binding = BUFFER_FIELD_OBJECTS) readonly buffer field_object_list {
@@ -32,9 +33,11 @@ vec3 object_irradiance(vec3 n)
 vec3 field_irradiance(place p)
 {
     switch (field_read) {
-    case FIELD_VERTEX:
+    case READ_VERTEX:
         return vertex_irradiance[gl_FrontFacing ? 0 : 1];
-    case FIELD_OBJECT:
+    case READ_PROBES:
+        return alpenglowProbeIrradiance(p.position, p.normal);
+    case READ_OBJECT:
         return object_irradiance(p.normal);
     default:
         return texelFetch(field_picture, ivec2(gl_FragCoord.xy), 0).rgb;

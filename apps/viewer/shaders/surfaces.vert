@@ -69,7 +69,7 @@ void main()
                                   dot(vertex_normal, axes[2])));
     for (uint side = 0u; side < 2u; side++) {
         vertex_irradiance[side] =
-            field_read == FIELD_VERTEX ? read_field(side, vertex) : vec3(0.0);
+            field_read == READ_VERTEX ? read_field(side, vertex) : vec3(0.0);
     }
     vertex_color = colored ? colors[vertex] : vec4(1.0);
     for (uint use = 0u; use < TEXTURE_USES; use++) {

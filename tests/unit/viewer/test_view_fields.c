@@ -2,6 +2,7 @@
 // Fields of the viewer, by the places where they are read, against those of render.
 #include "test_gl.h"
 
+#include "scene/scene.h"
 #include "shaders/bindings.h"
 
 static alp_render_options small_picture(const alp_field *field)
@@ -15,6 +16,16 @@ static alp_render_options small_picture(const alp_field *field)
     return o;
 }
 
+static void compare(const alp_scene *scene, const alp_render_options *o, mode_light light)
+{
+    test_pair pair = test_gl_pair_in("probes", light, scene, o);
+    const double equal = test_pair_equal_share(&pair);
+    if (!(pair.alike_share >= 0.8 && equal >= 0.99)) {
+        fail_msg("%.4f of the pixels are alike, and %.4f of these equal", pair.alike_share, equal);
+    }
+    test_pair_destroy(&pair);
+}
+
 /// Draws a field read at some places, and compares.
 static void check(const alp_scene *scene, const alp_field *field, GLint read)
 {
@@ -23,12 +34,23 @@ static void check(const alp_scene *scene, const alp_field *field, GLint read)
     gl_field_create(scene, read, o.width, o.height, &light.field);
     light.field.workers = 2;
     gl_field_set(&light.field, field);
-    test_pair pair = test_gl_pair_in("probes", light, scene, &o);
-    const double equal = test_pair_equal_share(&pair);
-    if (!(pair.alike_share >= 0.8 && equal >= 0.99)) {
-        fail_msg("%.4f of the pixels are alike, and %.4f of these equal", pair.alike_share, equal);
-    }
-    test_pair_destroy(&pair);
+    compare(scene, &o, light);
+}
+
+/// The same of probes that the shader reads.
+static void check_probes(const alp_scene *scene, const alp_probes *probes)
+{
+    const alp_scene_info info = alp_scene_get_info(scene);
+    alp_field *field = NULL;
+    ASSERT_OK(scene->context,
+              alp_field_create_probes(probes, ALP_LOOKUP_OURS, info.origin, NULL, &field));
+    const alp_render_options o = small_picture(field);
+    mode_light light = {0};
+    gl_field_create(scene, READ_PIXEL, o.width, o.height, &light.field);
+    gl_field_set_probes(&light.field, probes, info.origin);
+    assert_int_equal(light.field.read, READ_PROBES);
+    compare(scene, &o, light);
+    alp_field_destroy(field);
 }
 
 static alp_probes *bake_probes(alp_context *context, const alp_scene *scene, float spacing)
@@ -66,8 +88,20 @@ TEST_WITH_CONTEXT(fields_at_pixels_are_those_of_render, 2)
     alp_field *field = NULL;
     ASSERT_OK(context, alp_field_create_probes(probes, ALP_LOOKUP_THREE,
                                                alp_scene_get_info(scene).origin, NULL, &field));
-    check(scene, field, FIELD_PIXEL);
+    check(scene, field, READ_PIXEL);
     alp_field_destroy(field);
+    alp_probes_destroy(probes);
+    alp_scene_destroy(scene);
+}
+
+TEST_WITH_CONTEXT(probes_in_the_shader_are_those_of_render, 2)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
+    alp_probes *probes = bake_probes(context, scene, 0.5f);
+    check_probes(scene, probes);
     alp_probes_destroy(probes);
     alp_scene_destroy(scene);
 }
@@ -80,7 +114,7 @@ TEST_WITH_CONTEXT(fields_at_vertices_are_exact_where_light_is_even, 2)
     }
     alp_scene *scene = test_load(context, "builtin:cornell");
     alp_field *field = fit_environment(context, scene);
-    check(scene, field, FIELD_VERTEX);
+    check(scene, field, READ_VERTEX);
     alp_field_destroy(field);
     alp_scene_destroy(scene);
 }
@@ -93,7 +127,7 @@ TEST_WITH_CONTEXT(one_look_up_an_object_is_exact_for_nine_coefficients, 2)
     }
     alp_scene *scene = test_load(context, "builtin:teapot-room");
     alp_field *field = fit_environment(context, scene);
-    check(scene, field, FIELD_OBJECT);
+    check(scene, field, READ_OBJECT);
     alp_field_destroy(field);
     alp_scene_destroy(scene);
 }
