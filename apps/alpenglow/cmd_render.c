@@ -2,12 +2,12 @@
 // alpenglow render: a picture of a scene from one of its cameras.
 #include "cameras.h"
 #include "commands.h"
-#include "fields.h"
 #include "film.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "lightmaps.h"
 #include "output.h"
+#include "picture_fields.h"
 #include "session.h"
 #include "views.h"
 
@@ -21,38 +21,28 @@ static bool read_numbers(const char *text, double *numbers, int count)
     return end != NULL && *end == '\0';
 }
 
-/// Methods and models of the choices of --with, in their order.
+/// Methods and fields of the choices of --with, in their order.
 static const struct {
     alp_render_method method;
-    int model; // of FIELD: an ambient model, PROBES, AMBIENCE or LPV
-} methods[] = {{ALP_RENDER_AO, 0},
-               {ALP_RENDER_ALBEDO, 0},
-               {ALP_RENDER_REFERENCE, 0},
-               {ALP_RENDER_LIGHTMAP, 0},
-               {ALP_RENDER_RADIOSITY, 0},
-               {ALP_RENDER_HEMICUBE, 0},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_CONSTANT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_HEMISPHERE},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_GROUND_MAP},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_CUBE},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_ENVIRONMENT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 1},
-               {ALP_RENDER_FIELD, ALP_AMBIENT_COUNT + 2}};
-enum { PROBES = ALP_AMBIENT_COUNT, AMBIENCE, LPV };
+    picture_field field; // of FIELD
+} methods[] = {{.method = ALP_RENDER_AO},
+               {.method = ALP_RENDER_ALBEDO},
+               {.method = ALP_RENDER_REFERENCE},
+               {.method = ALP_RENDER_LIGHTMAP},
+               {.method = ALP_RENDER_RADIOSITY},
+               {.method = ALP_RENDER_HEMICUBE},
+               {ALP_RENDER_FIELD, {FIELD_OTHER, ALP_AMBIENT_CONSTANT}},
+               {ALP_RENDER_FIELD, {FIELD_OTHER, ALP_AMBIENT_HEMISPHERE}},
+               {ALP_RENDER_FIELD, {FIELD_OTHER, ALP_AMBIENT_GROUND_MAP}},
+               {ALP_RENDER_FIELD, {FIELD_OTHER, ALP_AMBIENT_CUBE}},
+               {ALP_RENDER_FIELD, {FIELD_OTHER, ALP_AMBIENT_ENVIRONMENT}},
+               {ALP_RENDER_FIELD, {.model = FIELD_PROBES}},
+               {ALP_RENDER_FIELD, {.model = FIELD_AMBIENCE}},
+               {ALP_RENDER_FIELD, {.model = FIELD_LPV}}};
 
-static int model_of(const command_line *a)
+static field_model model_of(const command_line *a)
 {
-    return methods[a->values[OPTION_WITH].choice].model;
-}
-
-static field_model field_of(const command_line *a, const alp_render_options *o)
-{
-    const int model = o->method == ALP_RENDER_FIELD ? model_of(a) : -1;
-    return model == PROBES     ? FIELD_PROBES
-           : model == AMBIENCE ? FIELD_AMBIENCE
-           : model == LPV      ? FIELD_LPV
-                               : FIELD_OTHER;
+    return methods[a->values[OPTION_WITH].choice].field.model;
 }
 
 /// Refuses options that a method does not use.
@@ -100,7 +90,7 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--ao-cone", OPTION_AO_CONE, AO},
                    {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
     const unsigned own =
-        1u << o->method | (field_of(a, o) == FIELD_PROBES ? (unsigned)PROBES_ONLY : 0u);
+        1u << o->method | (model_of(a) == FIELD_PROBES ? (unsigned)PROBES_ONLY : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].methods & own) == 0 && a->values[read_by[i].id].given) {
             return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
@@ -182,7 +172,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
-    code = code == EXIT_DONE ? field_check(a, field_of(a, o)) : code;
+    code = code == EXIT_DONE ? field_check(a, model_of(a)) : code;
     code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
@@ -213,54 +203,14 @@ static alp_result save(const alp_image *linear, const char *path, bool overwrite
     return result;
 }
 
-/// Flies, and takes light and, without --camera, the view of the last moment.
-static int make_ambience(session *s, const command_line *a, alp_render_options *o,
-                         field_source *source)
-{
-    const int code = field_ambience(s, a, &o->lighting, source);
-    if (code == EXIT_DONE) {
-        const flight_run *run = source->flight;
-        const flight_camera camera = flight_run_camera(run);
-        o->lighting = run->lighting;
-        o->camera = a->values[OPTION_CAMERA].given ? o->camera : flight_view(&camera);
-    }
-    return code;
-}
-
-/// Propagates light through grids that follow the camera of the picture.
-static int make_lpv(session *s, const command_line *a, alp_render_options *o, field_source *source)
-{
-    if (a->values[OPTION_SKY].given) {
-        session_warn(s, "no-sky", "--sky",
-                     "light propagation holds no sky, which is background only; --with probes "
-                     "holds its light");
-    }
-    const alp_result result = alp_render_find_camera(s->scene, o, &o->camera);
-    const int code = result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
-                                      : session_end(s, result);
-    o->lpv = source->lpv != NULL ? source->lpv->lpv : NULL;
-    o->gloss = a->values[OPTION_GLOSS].given;
-    o->scattering = (float)a->values[OPTION_MEDIA].real;
-    return code;
-}
-
 /// Makes the field of --with.
 static int make_field(session *s, const command_line *a, alp_render_options *o,
                       field_source *source)
 {
-    if (field_of(a, o) == FIELD_AMBIENCE) {
-        return make_ambience(s, a, o, source);
-    }
-    if (field_of(a, o) == FIELD_LPV) {
-        return make_lpv(s, a, o, source);
-    }
-    if (field_of(a, o) != FIELD_PROBES) {
-        const alp_ambient_model model = (alp_ambient_model)model_of(a);
-        const alp_result result = field_fit(s, a, model, &o->lighting, source);
-        return result == ALP_OK ? EXIT_DONE : session_end(s, result);
-    }
-    const alp_probe_lookup lookup = (alp_probe_lookup)a->values[OPTION_LOOKUP].choice;
-    const int code = field_probes(s, a, &o->lighting, lookup, source);
+    const int code =
+        picture_field_make(s, a, methods[a->values[OPTION_WITH].choice].field, o, source);
+    o->gloss = a->values[OPTION_GLOSS].given;
+    o->scattering = (float)a->values[OPTION_MEDIA].real;
     o->overlay = a->values[OPTION_OVERLAY].given ? source->probes : NULL;
     return code;
 }

@@ -104,6 +104,11 @@ bool command_interruptible(command_id command)
            command == COMMAND_VIEW;
 }
 
+bool command_is_picture(command_id command)
+{
+    return command == COMMAND_RENDER || command == COMMAND_VIEW;
+}
+
 const char *const *builtin_scene_names(size_t *count)
 {
     *count = sizeof builtin_scenes / sizeof *builtin_scenes;

@@ -106,7 +106,7 @@ alp_result field_fit(session *s, const command_line *a, alp_ambient_model model,
     o.model = model;
     o.lighting = *lighting;
     o.bounces = lighting_bounces(a);
-    o.direct = a->command == COMMAND_SAMPLE && a->values[OPTION_DIRECT].choice == 1;
+    o.direct = !command_is_picture(a->command) && a->values[OPTION_DIRECT].choice == 1;
     o.seed = a->values[OPTION_SEED].whole;
     o.progress = session_progress;
     o.progress_user = s;
@@ -146,24 +146,31 @@ int field_probes(session *s, const command_line *a, const alp_lighting_options *
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
 }
 
+int field_ambience_open(session *s, const command_line *a, const alp_lighting_options *lighting,
+                        field_source *source)
+{
+    source->flight = allocate_or_exit(NULL, sizeof *source->flight);
+    return flight_run_open(s, a, lighting, source->flight);
+}
+
+alp_result field_ambience_reach(field_source *source, double time)
+{
+    flight_run *run = source->flight;
+    alp_result result = flight_run_reach(run, time);
+    alp_field_destroy(source->field);
+    source->field = NULL;
+    if (result == ALP_OK) { // what the last frame sampled counts from the next update on
+        result = alp_ambience_update(run->ambience, fmin(time, run->end));
+    }
+    return result == ALP_OK ? alp_field_create_ambience(run->ambience, &source->field) : result;
+}
+
 int field_ambience(session *s, const command_line *a, const alp_lighting_options *lighting,
                    field_source *source)
 {
-    flight_frame last = {0};
-    source->flight = allocate_or_exit(NULL, sizeof *source->flight);
-    const int code = flight_run_open(s, a, lighting, source->flight);
-    if (code != EXIT_DONE) {
-        return code;
-    }
-    flight_run *run = source->flight;
-    alp_result result = flight_run_finish(run, &last);
-    if (result == ALP_OK) { // what the last frame sampled counts from the next update on
-        result = alp_ambience_update(run->ambience, last.time);
-    }
-    if (result == ALP_OK) {
-        result = alp_field_create_ambience(run->ambience, &source->field);
-    }
-    return session_end(s, result);
+    const int code = field_ambience_open(s, a, lighting, source);
+    return code == EXIT_DONE ? session_end(s, field_ambience_reach(source, source->flight->end))
+                             : code;
 }
 
 int field_lpv(session *s, const command_line *a, const alp_lighting_options *lighting,
@@ -179,6 +186,12 @@ int field_lpv(session *s, const command_line *a, const alp_lighting_options *lig
         result = alp_field_create_lpv(source->lpv->lpv, &source->field);
     }
     return session_end(s, result);
+}
+
+alp_result field_lpv_follow(field_source *source, const alp_camera *camera)
+{
+    const alp_result result = lpv_run_follow(source->lpv, camera);
+    return result == ALP_OK ? lpv_run_light(source->lpv, NULL) : result;
 }
 
 void probes_print(const alp_probes_info *i)

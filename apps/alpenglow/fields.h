@@ -38,6 +38,12 @@ alp_result field_fit(session *s, const command_line *arguments, alp_ambient_mode
 /// @return EXIT_DONE, or an exit code after a message
 int field_probes(session *s, const command_line *arguments, const alp_lighting_options *lighting,
                  alp_probe_lookup lookup, field_source *source);
+/// Opens the flight and its volume, without light yet. `source` owns them.
+/// @return EXIT_DONE, or an exit code after a message
+int field_ambience_open(session *s, const command_line *arguments,
+                        const alp_lighting_options *lighting, field_source *source);
+/// Flies on to a time, and makes the field of that moment.   @return as the library
+alp_result field_ambience_reach(field_source *source, double time);
 /// Flies to the end of the flight, and makes the field of the volume.
 /// @return EXIT_DONE, or an exit code after a message
 int field_ambience(session *s, const command_line *arguments, const alp_lighting_options *lighting,
@@ -47,6 +53,9 @@ int field_ambience(session *s, const command_line *arguments, const alp_lighting
 /// @return EXIT_DONE, or an exit code after a message
 int field_lpv(session *s, const command_line *arguments, const alp_lighting_options *lighting,
               const alp_camera *camera, field_source *source);
+/// Moves the camera of a volume, and lights it again. Its field reads the new light.
+/// @return as the library
+alp_result field_lpv_follow(field_source *source, const alp_camera *camera);
 /// Prints what probes hold, and how good they are.
 void probes_print(const alp_probes_info *info);
 void field_source_clear(field_source *source);

@@ -7,10 +7,16 @@
 /// More panes than any eye sees through.
 enum { LAYER_LIMIT = 4096 };
 
-/// Draws the shadows of what does not move once.
-static int add_lights(const alp_scene *scene, const drawing_options *o, drawing *d)
+/// Whether a field is read on the processor at every pixel.
+static bool reads_pixels(const drawing *d)
 {
-    int code = gl_lights_create(scene, o->lighting, &d->light.lights);
+    return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == READ_PIXEL;
+}
+
+/// Draws the shadows of what does not move once.
+static int add_lights(const alp_scene *scene, const alp_lighting_options *lighting, drawing *d)
+{
+    int code = gl_lights_create(scene, lighting, &d->light.lights);
     code = code == EXIT_DONE ? pass_shadows_create(&d->shadows) : code;
     if (code == EXIT_DONE) {
         pass_shadows_draw(&d->shadows, &d->drawn, &d->light.lights);
@@ -21,10 +27,13 @@ static int add_lights(const alp_scene *scene, const drawing_options *o, drawing 
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
-    *d = (drawing){.scene = scene};
+    *d = (drawing){.scene = scene, .light = o->light};
     int code = gl_targets_create(o->width, o->height, &d->targets);
     if (code == EXIT_DONE) {
         code = pass_surfaces_create(o->mode, o->metals_black, &d->surfaces);
+    }
+    if (code == EXIT_DONE && reads_pixels(d)) {
+        code = pass_field_create(&d->targets, &d->field);
     }
     if (code == EXIT_DONE) {
         code = pass_background_create(o->context, scene, open ? o->lighting : NULL, &d->background);
@@ -33,7 +42,7 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
     code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
     const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
-    return code == EXIT_DONE && lit ? add_lights(scene, o, d) : code;
+    return code == EXIT_DONE && lit ? add_lights(scene, o->lighting, d) : code;
 }
 
 void drawing_destroy(drawing *d)
@@ -44,11 +53,40 @@ void drawing_destroy(drawing *d)
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);
     pass_background_destroy(&d->background);
+    pass_field_destroy(&d->field);
     pass_surfaces_destroy(&d->surfaces);
     gl_targets_destroy(&d->targets);
 }
 
-void drawing_draw(const drawing *d, const alp_camera *camera)
+int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
+{
+    const bool lit = d->shadows.program != 0;
+    pass_background_destroy(&d->background);
+    pass_shadows_destroy(&d->shadows);
+    gl_lights_destroy(&d->light.lights);
+    const int code = pass_background_create(context, d->scene, lighting, &d->background);
+    return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, d) : code;
+}
+
+static void draw_opaque(const drawing *d, const camera_view *view)
+{
+    if (reads_pixels(d)) {
+        pass_field_draw_opaque(&d->field, &d->light.field, &d->drawn, view, &d->targets);
+    }
+    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, view, &d->targets);
+}
+
+/// Draws one layer of panes. @return whether it shows anything
+static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer)
+{
+    if (reads_pixels(d) &&
+        !pass_field_draw_panes(&d->field, &d->light.field, &d->drawn, view, &d->targets, layer)) {
+        return false;
+    }
+    return pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
+}
+
+void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const gl_targets *t = &d->targets;
@@ -56,9 +94,9 @@ void drawing_draw(const drawing *d, const alp_camera *camera)
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
     pass_layers_clear(t);
-    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, &view, t);
-    while (panes && layer < LAYER_LIMIT &&
-           pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
+    gl_field_update(&d->light.field, d->scene);
+    draw_opaque(d, &view);
+    while (panes && layer < LAYER_LIMIT && draw_panes(d, &view, layer)) {
         pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
     pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);

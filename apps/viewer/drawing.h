@@ -4,6 +4,7 @@
 #define VIEWER_DRAWING_H
 
 #include "pass_background.h"
+#include "pass_field.h"
 #include "pass_film.h"
 #include "pass_layers.h"
 #include "pass_shadows.h"
@@ -14,16 +15,18 @@ typedef struct drawing {
     gl_targets targets;
     gl_scene drawn;
     pass_surfaces surfaces;
+    pass_field field; // of modes that read a field at pixels
     pass_layers layers;
     pass_background background;
     pass_film film;
     pass_shadows shadows;
-    mode_light light; // of the mode; the caller fills all but the lights
+    mode_light light; // of the mode; owned
 } drawing;
 
 typedef struct drawing_options {
     alp_context *context; // of the scene
     const view_mode *mode;
+    mode_light light; // of the mode; drawing_create takes it over, also where it fails
     const alp_lighting_options *lighting;
     uint32_t width, height;
     bool direct; // lamps and suns shine, in modes that have their light
@@ -36,8 +39,10 @@ typedef struct drawing_options {
 int drawing_create(const alp_scene *scene, const drawing_options *options, drawing *d);
 void drawing_destroy(drawing *d);
 
+/// Changes sky, suns and lamps. @return EXIT_DONE, or EXIT_FAILED
+int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
 /// Draws a frame of light.
-void drawing_draw(const drawing *d, const alp_camera *camera);
+void drawing_draw(drawing *d, const alp_camera *camera);
 /// Develops it by alp_film_develop's numbers.
 /// @param film  out: exposure becomes the one that was used
 /// @param light NULL, or out: the light; the caller destroys both

@@ -232,6 +232,7 @@ static void draw_surface(const gl_scene *scene, const gl_surface *s)
         glBindSampler(i, material->uses[i].sampler);
     }
     glUniform1ui(UNIFORM_MATERIAL, s->material);
+    glUniform1ui(UNIFORM_SURFACE, (GLuint)(s - scene->surfaces));
     glUniform3fv(UNIFORM_AXES, 3, &s->axes[0][0]);
     glDrawArrays(GL_TRIANGLES, s->first, s->corners);
 }

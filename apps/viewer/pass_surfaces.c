@@ -43,8 +43,9 @@ static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_li
     gl_scene_bind(scene);
     camera_view_bind(view);
     glUniform1i(UNIFORM_METALS, pass->metals_black);
+    glUniform1i(UNIFORM_FIELD_READ, READ_PIXEL); // vertices hold no light
     if (pass->mode->bind != NULL) {
-        pass->mode->bind(light);
+        pass->mode->bind(light, pass->program);
     }
 }
 

@@ -11,7 +11,7 @@
 
 typedef struct flight_job {
     view_job *view;
-    flight path;
+    const flight *path;
     uint64_t count; // frames
     double step;    // seconds from one to the next
     alp_film_adaptation adaptation;
@@ -38,14 +38,33 @@ static alp_result develop(flight_job *job, double seconds, alp_image **developed
     return result;
 }
 
+/// Brings the light to a moment of the flight.
+static int move_light(view_job *view, double time, const alp_camera *camera)
+{
+    const view_mode *mode = view->settings.mode;
+    const flight_run *run = view->drawing.light.source.flight;
+    int code = EXIT_DONE;
+    if (mode->move != NULL) {
+        code = mode->move(&view->session, time, camera, &view->drawing.light);
+    }
+    if (code == EXIT_DONE && run != NULL && run->day > 0.0) {
+        code = drawing_set_lighting(&view->drawing, view->session.context, &run->lighting);
+    }
+    return code;
+}
+
 static int draw_frame(flight_job *job, uint64_t frame, const char *file)
 {
     view_job *view = job->view;
-    const flight_camera at =
-        flight_at(&job->path, flight_start(&job->path) + job->step * (double)frame);
+    const double time = flight_start(job->path) + job->step * (double)frame;
+    const flight_camera at = flight_at(job->path, time);
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
+    const int moved = move_light(view, time, &camera);
+    if (moved != EXIT_DONE) {
+        return moved;
+    }
     drawing_draw(&view->drawing, &camera);
     const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
     const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
@@ -75,7 +94,7 @@ static int go_on(flight_job *job, uint64_t frame)
 static int draw_frames(flight_job *job)
 {
     const double start = clock_seconds();
-    const double length = flight_end(&job->path) - flight_start(&job->path);
+    const double length = flight_end(job->path) - flight_start(job->path);
     job->step = job->count > 1 ? length / (double)(job->count - 1) : 0.0;
     int code = pictures_folder(job->view->arguments->values[OPTION_PICTURES].text);
     for (uint64_t i = 0; i < job->count && code == EXIT_DONE; i++) {
@@ -90,14 +109,27 @@ static int draw_frames(flight_job *job)
     return code;
 }
 
+int view_flight_read(view_job *view)
+{
+    const command_line *a = view->arguments;
+    const alp_scene_info info = alp_scene_get_info(view->session.scene);
+    if (view_mode_flies(a)) { // the volume reads it
+        return EXIT_DONE;
+    }
+    const int code = flight_read(a->values[OPTION_PATH].text, info.origin, &view->path);
+    if (code == EXIT_DONE) {
+        const flight_camera first = flight_at(&view->path, flight_start(&view->path));
+        view->settings.render.camera = flight_view(&first);
+    }
+    return code;
+}
+
 int view_flight(view_job *view)
 {
-    const option_value *v = view->arguments->values;
-    const alp_scene_info info = alp_scene_get_info(view->session.scene);
-    flight_job job = {
-        .view = view, .count = v[OPTION_FRAMES].whole, .adaptation = alp_film_adaptation_default()};
-    int code = flight_read(v[OPTION_PATH].text, info.origin, &job.path);
-    code = code == EXIT_DONE ? draw_frames(&job) : code;
-    flight_clear(&job.path);
-    return code;
+    const flight_run *run = view->drawing.light.source.flight;
+    flight_job job = {.view = view,
+                      .path = run != NULL ? &run->path : &view->path,
+                      .count = view->arguments->values[OPTION_FRAMES].whole,
+                      .adaptation = alp_film_adaptation_default()};
+    return draw_frames(&job);
 }

@@ -13,12 +13,16 @@ typedef struct view_job {
     session session;
     gl_context gl;
     drawing drawing;
+    flight path;          // of the camera; empty where the light has the flight
     alp_image *reference; // NULL without one
     double prepare_seconds;
 } view_job;
 
 /// Writes a picture of -o. @return the exit code
 int view_picture(view_job *job);
+/// Reads the flight, and takes the view of its beginning.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int view_flight_read(view_job *job);
 /// Writes the pictures of a flight. @return the exit code
 int view_flight(view_job *job);
 

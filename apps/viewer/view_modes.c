@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "view_modes.h"
 
-#include "fields.h"
 #include "lightmaps.h"
+#include "mode_fields.h"
 #include "shader_list.h"
 
-static int prepare_lightmap(session *s, const command_line *a, const alp_render_options *o,
+static int prepare_lightmap(session *s, const command_line *a, alp_render_options *o,
                             mode_light *light)
 {
     alp_lightmap *lightmap = NULL;
@@ -17,16 +17,18 @@ static int prepare_lightmap(session *s, const command_line *a, const alp_render_
     return code;
 }
 
-static void bind_lightmap(const mode_light *light)
+static void bind_lightmap(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_lightmap_bind(&light->lightmap);
 }
 
-static int prepare_ambient(session *s, const command_line *a, const alp_render_options *o,
+static int prepare_ambient(session *s, const command_line *a, alp_render_options *o,
                            mode_light *light)
 {
     field_source source = {0};
-    const alp_result result = field_fit(s, a, view_mode_of(a)->model, &o->lighting, &source);
+    const alp_result result =
+        field_fit(s, a, view_mode_of(a)->field.ambient, &o->lighting, &source);
     if (result == ALP_OK) {
         gl_ambient_create(source.field, &light->ambient);
     }
@@ -34,12 +36,13 @@ static int prepare_ambient(session *s, const command_line *a, const alp_render_o
     return result == ALP_OK ? EXIT_DONE : session_end(s, result);
 }
 
-static int prepare_direct(session *s, const command_line *a, const alp_render_options *o,
+static int prepare_direct(session *s, const command_line *a, alp_render_options *o,
                           mode_light *light)
 {
     (void)a;
-    (void)o;
-    if (light->lights.count == 0) {
+    (void)light;
+    const bool sun = o->lighting.sun.illuminance > 0.0f;
+    if (alp_scene_get_info(s->scene).lights == 0 && o->lighting.lamp_count == 0 && !sun) {
         session_warn(s, "no-light", "--with direct",
                      "no lamp and no sun shines, and surfaces have their emission alone; give "
                      "--sun, --lamp or --spot");
@@ -47,13 +50,15 @@ static int prepare_direct(session *s, const command_line *a, const alp_render_op
     return EXIT_DONE;
 }
 
-static void bind_lights(const mode_light *light)
+static void bind_lights(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_lights_bind(&light->lights);
 }
 
-static void bind_ambient(const mode_light *light)
+static void bind_ambient(const mode_light *light, GLuint program)
 {
+    (void)program;
     gl_ambient_bind(&light->ambient);
     gl_lights_bind(&light->lights);
 }
@@ -83,33 +88,53 @@ static const view_mode modes[] = {
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,
      .method = ALP_RENDER_FIELD,
-     .model = ALP_AMBIENT_CONSTANT,
+     .field = {FIELD_OTHER, ALP_AMBIENT_CONSTANT},
      .prepare = prepare_ambient,
      .bind = bind_ambient},
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,
      .method = ALP_RENDER_FIELD,
-     .model = ALP_AMBIENT_HEMISPHERE,
+     .field = {FIELD_OTHER, ALP_AMBIENT_HEMISPHERE},
      .prepare = prepare_ambient,
      .bind = bind_ambient},
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,
      .method = ALP_RENDER_FIELD,
-     .model = ALP_AMBIENT_GROUND_MAP,
+     .field = {FIELD_OTHER, ALP_AMBIENT_GROUND_MAP},
      .prepare = prepare_ambient,
      .bind = bind_ambient},
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,
      .method = ALP_RENDER_FIELD,
-     .model = ALP_AMBIENT_CUBE,
+     .field = {FIELD_OTHER, ALP_AMBIENT_CUBE},
      .prepare = prepare_ambient,
      .bind = bind_ambient},
     {.fragment = &shader_ambient_frag,
      .uses = FITTED,
      .method = ALP_RENDER_FIELD,
-     .model = ALP_AMBIENT_ENVIRONMENT,
+     .field = {FIELD_OTHER, ALP_AMBIENT_ENVIRONMENT},
      .prepare = prepare_ambient,
      .bind = bind_ambient},
+    {.fragment = &shader_field_frag,
+     .uses = FITTED | USES_FIELD | USES_PROBES,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_PROBES},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind},
+    {.fragment = &shader_field_frag,
+     .uses = FITTED | USES_FIELD,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_AMBIENCE},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind,
+     .move = mode_ambience_move},
+    {.fragment = &shader_field_frag,
+     .uses = FITTED | USES_FIELD,
+     .method = ALP_RENDER_FIELD,
+     .field = {.model = FIELD_LPV},
+     .prepare = mode_field_prepare,
+     .bind = mode_field_bind,
+     .move = mode_lpv_move},
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -137,7 +162,12 @@ int view_mode_check(const command_line *a)
                    {"--atlas", OPTION_ATLAS, USES_ATLAS},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
-                   {"--seed", OPTION_SEED, USES_SEED}};
+                   {"--seed", OPTION_SEED, USES_SEED},
+                   {"--read", OPTION_READ, USES_FIELD},
+                   {"--probes", OPTION_PROBES, USES_PROBES},
+                   {"--spacing", OPTION_SPACING, USES_PROBES},
+                   {"--bounds", OPTION_BOUNDS, USES_PROBES},
+                   {"--lookup", OPTION_LOOKUP, USES_PROBES}};
     const unsigned uses = view_mode_of(a)->uses;
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].use & uses) == 0 && a->values[read_by[i].id].given) {
@@ -145,7 +175,12 @@ int view_mode_check(const command_line *a)
                                a->values[OPTION_WITH].text);
         }
     }
-    return EXIT_DONE;
+    return field_check(a, view_mode_of(a)->field.model);
+}
+
+bool view_mode_flies(const command_line *a)
+{
+    return view_mode_of(a)->field.model == FIELD_AMBIENCE;
 }
 
 void mode_light_destroy(mode_light *light)
@@ -153,4 +188,6 @@ void mode_light_destroy(mode_light *light)
     gl_lightmap_destroy(&light->lightmap);
     gl_ambient_destroy(&light->ambient);
     gl_lights_destroy(&light->lights);
+    gl_field_destroy(&light->field);
+    field_source_clear(&light->source);
 }

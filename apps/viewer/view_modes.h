@@ -4,15 +4,18 @@
 #define VIEWER_VIEW_MODES_H
 
 #include "gl_ambient.h"
+#include "gl_field.h"
 #include "gl_lightmap.h"
 #include "gl_lights.h"
 #include "gl_program.h"
-#include "session.h"
+#include "picture_fields.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
 typedef struct mode_light {
     gl_lightmap lightmap;
     gl_ambient ambient;
+    gl_field field;
+    field_source source; // of `field`
     gl_lights lights;
 } mode_light;
 
@@ -25,28 +28,36 @@ typedef enum mode_use {
     USES_ATLAS = 16,
     USES_SEED = 32,
     USES_SWITCH = 64, // --direct
+    USES_FIELD = 128,
+    USES_PROBES = 256,
     // Not options.
-    USES_PANES = 128, // light goes through panes
-    USES_DIRECT = 256 // light comes straight from lamps and suns
+    USES_PANES = 512,  // light goes through panes
+    USES_DIRECT = 1024 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {
     const gl_shader *fragment;
     unsigned uses;            // of mode_use
-    alp_ambient_model model;  // of an ambient model
     alp_render_method method; // of render, whose film the picture has
+    picture_field field;      // of fields and models of ambient light
     /// Makes the light. NULL: there is none.
+    /// @param options of the picture; camera and lighting may become those of the light
     /// @return EXIT_DONE, or an exit code after a message
-    int (*prepare)(session *s, const command_line *arguments, const alp_render_options *options,
+    int (*prepare)(session *s, const command_line *arguments, alp_render_options *options,
                    mode_light *light);
-    /// Binds it, and sets the uniforms of the current program. NULL: there is none.
-    void (*bind)(const mode_light *light);
+    /// Binds it, and sets the uniforms of the current program, which is given. NULL: there is none.
+    void (*bind)(const mode_light *light, GLuint program);
+    /// Brings the light to a moment of a flight. NULL: it stands still.
+    /// @return EXIT_DONE, or an exit code after a message
+    int (*move)(session *s, double time, const alp_camera *camera, mode_light *light);
 } view_mode;
 
 /// The mode of --with.
 const view_mode *view_mode_of(const command_line *arguments);
 /// Refuses options that the mode does not use. @return EXIT_DONE, or EXIT_USAGE after a message
 int view_mode_check(const command_line *arguments);
+/// Whether light comes from a field that moves along the flight of --path also in a single picture.
+bool view_mode_flies(const command_line *arguments);
 void mode_light_destroy(mode_light *light);
 
 #endif

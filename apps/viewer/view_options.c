@@ -17,22 +17,27 @@ static int check_output(const command_line *a)
     } read_by[] = {{"--frames", OPTION_FRAMES, true},
                    {"--path", OPTION_PATH, true},
                    {"--camera", OPTION_CAMERA, false},
+                   {"--time", OPTION_TIME, false},
                    {"--reference", OPTION_REFERENCE, false},
                    {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, false}};
     const option_value *v = a->values;
-    const bool flight = v[OPTION_PICTURES].given;
-    if (v[OPTION_OUTPUT].given == flight) {
-        return usage_error(COMMAND_VIEW, flight ? "-o and --pictures are two outputs; give one"
-                                                : "no output; give -o IMAGE.png for a picture, or "
-                                                  "--path FLIGHT.csv --pictures DIR for a flight");
+    const bool pictures = v[OPTION_PICTURES].given;
+    const bool flies =
+        v[OPTION_WITH].given && view_mode_flies(a); // the light, before a picture too
+    if (v[OPTION_OUTPUT].given == pictures) {
+        return usage_error(COMMAND_VIEW, pictures
+                                             ? "-o and --pictures are two outputs; give one"
+                                             : "no output; give -o IMAGE.png for a picture, or "
+                                               "--path FLIGHT.csv --pictures DIR for a flight");
     }
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
-        if (v[read_by[i].id].given && read_by[i].flight != flight) {
+        const bool shared = read_by[i].id == OPTION_PATH && flies;
+        if (v[read_by[i].id].given && read_by[i].flight != pictures && !shared) {
             return usage_error(COMMAND_VIEW, "%s: does not apply to %s", read_by[i].name,
-                               flight ? "--pictures" : "-o");
+                               pictures ? "--pictures" : "-o");
         }
     }
-    if (flight && !v[OPTION_PATH].given) {
+    if (pictures && !v[OPTION_PATH].given && !flies) {
         return usage_error(COMMAND_VIEW, "no flight; give --path FLIGHT.csv, lines of "
                                          "t,px,py,pz,tx,ty,tz[,vfov]");
     }

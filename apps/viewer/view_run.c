@@ -46,21 +46,26 @@ static int prepare(view_job *job)
     view_settings *v = &job->settings;
     session *s = &job->session;
     const double start = clock_seconds();
-    const drawing_options options = {.context = s->context,
-                                     .mode = v->mode,
-                                     .lighting = &v->render.lighting,
-                                     .width = v->render.width,
-                                     .height = v->render.height,
-                                     .direct = (v->mode->uses & USES_SWITCH) == 0 ||
-                                               job->arguments->values[OPTION_DIRECT].choice == 1,
-                                     .metals_black =
-                                         job->arguments->values[OPTION_METALS].choice == 1};
+    const bool direct =
+        (v->mode->uses & USES_SWITCH) == 0 || job->arguments->values[OPTION_DIRECT].choice == 1;
+    drawing_options options = {.context = s->context,
+                               .mode = v->mode,
+                               .lighting = &v->render.lighting,
+                               .width = v->render.width,
+                               .height = v->render.height,
+                               .direct = direct,
+                               .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
     v->render.progress = session_progress;
     v->render.progress_user = s;
     interrupt_defer();
-    int code = drawing_create(s->scene, &options, &job->drawing);
-    if (code == EXIT_DONE && v->mode->prepare != NULL) {
-        code = v->mode->prepare(s, job->arguments, &v->render, &job->drawing.light);
+    int code = EXIT_DONE;
+    if (v->mode->prepare != NULL) {
+        code = v->mode->prepare(s, job->arguments, &v->render, &options.light);
+    }
+    if (code == EXIT_DONE) {
+        code = drawing_create(s->scene, &options, &job->drawing);
+    } else {
+        mode_light_destroy(&options.light);
     }
     code = code == EXIT_DONE ? gl_context_check(&job->gl) : code;
     progress_clear(&s->progress);
@@ -86,12 +91,14 @@ static int run_scene(view_job *job)
     int code = lighting_open(&job->session, a, &v->render.lighting, &v->lamps, &sky);
     code = code == EXIT_DONE ? camera_find(&job->session, a, &v->render) : code;
     code = code == EXIT_DONE ? load_reference(job) : code;
+    code = code == EXIT_DONE && a->values[OPTION_PICTURES].given ? view_flight_read(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
     if (code == EXIT_DONE) {
         code = a->values[OPTION_PICTURES].given ? view_flight(job) : view_picture(job);
     }
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
     drawing_destroy(&job->drawing);
+    flight_clear(&job->path);
     alp_image_destroy(job->reference);
     alp_image_destroy(sky);
     session_close(&job->session);

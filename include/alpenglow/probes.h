@@ -99,6 +99,10 @@ ALP_API const float *alp_probes_coefficients(const alp_probes *probes, uint32_t 
 ALP_API const char *alp_probes_layer_name(const alp_probes *probes, uint32_t layer);
 /// [count] alp_probe_state, owned by the probes.
 ALP_API const uint8_t *alp_probes_states(const alp_probes *probes);
+/// Distances that probes met, owned by the probes: [count][8][8][2], metres and metres², the mean
+/// distance and the mean of its square by direction, in the octahedral map of
+/// docs/manual/probe-format.md. NULL without visibility.
+ALP_API const float *alp_probes_moments(const alp_probes *probes);
 /// Place at which probe `index` was sampled, metres in the world of the scene's file.
 ALP_API void alp_probes_position(const alp_probes *probes, uint32_t index, double position[3]);
 

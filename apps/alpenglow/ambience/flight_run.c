@@ -65,7 +65,8 @@ int flight_run_refuse(const command_line *a)
                {"--warm", OPTION_WARM},
                {"--detail", OPTION_DETAIL}};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
-        if (a->values[own[i].id].given) {
+        const bool shared = own[i].id == OPTION_PATH && a->command == COMMAND_VIEW; // of its camera
+        if (a->values[own[i].id].given && !shared) {
             return usage_error(a->command, "%s: does not apply to --with %s", own[i].name,
                                a->values[OPTION_WITH].text);
         }
@@ -176,7 +177,7 @@ static alp_result make_volume(const command_line *a, flight_run *run)
 {
     alp_ambience_sampler_options o = alp_ambience_sampler_options_default();
     o.lighting = run->lighting;
-    o.direct = a->command != COMMAND_RENDER && a->values[OPTION_DIRECT].choice == 1;
+    o.direct = !command_is_picture(a->command) && a->values[OPTION_DIRECT].choice == 1;
     o.detail = (float)run->detail;
     o.seed = a->values[OPTION_SEED].whole;
     run->options = make_options(run, a);
@@ -289,11 +290,12 @@ flight_camera flight_run_camera(const flight_run *run)
     return flight_at(&run->path, time_of(run, run->frame > 0 ? run->frame - 1 : 0));
 }
 
-alp_result flight_run_finish(flight_run *run, flight_frame *last)
+alp_result flight_run_reach(flight_run *run, double time)
 {
     alp_result result = ALP_OK;
-    while (run->frame < run->frame_count && result == ALP_OK) {
-        result = flight_run_next(run, last);
+    flight_frame frame;
+    while (run->frame < run->frame_count && time_of(run, run->frame) <= time && result == ALP_OK) {
+        result = flight_run_next(run, &frame);
     }
     return result;
 }

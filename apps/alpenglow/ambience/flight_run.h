@@ -57,9 +57,9 @@ void flight_run_close(flight_run *run);
 /// Moves the volume to the next frame and samples it.
 /// @return as the library; CANCELLED on Ctrl-C
 alp_result flight_run_next(flight_run *run, flight_frame *frame);
-/// Moves it to the end.
-/// @param last out: the last frame
-alp_result flight_run_finish(flight_run *run, flight_frame *last);
+/// Moves it on to a time: all frames until then.
+/// @return as the library; CANCELLED on Ctrl-C
+alp_result flight_run_reach(flight_run *run, double time);
 
 /// The camera of the last frame.
 flight_camera flight_run_camera(const flight_run *run);

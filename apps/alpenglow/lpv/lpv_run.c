@@ -194,6 +194,14 @@ void lpv_run_close(lpv_run *run)
     *run = (lpv_run){0};
 }
 
+alp_result lpv_run_follow(lpv_run *run, const alp_camera *camera)
+{
+    const viewer v = find_viewer(run->session, camera);
+    run->camera = *camera;
+    run->frame.camera = &run->camera;
+    return run->options.cascades > 1 ? alp_lpv_follow(run->lpv, v.eye, v.forward) : ALP_OK;
+}
+
 alp_result lpv_run_light(lpv_run *run, alp_lpv_report *report)
 {
     return alp_lpv_light_scene(run->lpv, run->session->scene, &run->frame, report);

@@ -30,6 +30,8 @@ int lpv_run_open(session *s, const command_line *arguments, const alp_lighting_o
                  const alp_camera *camera, lpv_run *run);
 void lpv_run_close(lpv_run *run);
 
+/// Moves the camera. Several grids follow it.   @return as the library
+alp_result lpv_run_follow(lpv_run *run, const alp_camera *camera);
 /// Lights a frame: alp_lpv_light_scene. @param report out, or NULL   @return as the library
 alp_result lpv_run_light(lpv_run *run, alp_lpv_report *report);
 

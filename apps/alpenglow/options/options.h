@@ -147,6 +147,8 @@ typedef enum option_id {
     OPTION_MAP,
     OPTION_POINTS,
     OPTION_HEATMAP,
+    OPTION_READ,
+    OPTION_NORMAL_MAPS,
     OPTION_REFERENCE,
     OPTION_REFERENCE_THRESHOLD,
     OPTION_CONVENTION,
@@ -251,6 +253,8 @@ const char *option_group_title(option_group group);
 const option *option_after(command_id command, const option *last);
 /// The same within one group.
 const option *option_next(command_id command, option_group group, const option *last);
+/// Whether a command makes pictures, to which it adds light straight from lamps and suns itself.
+bool command_is_picture(command_id command);
 /// Largest number of operands of a command.
 int command_operand_limit(command_id command);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.

@@ -2,11 +2,11 @@
 // Rows of the table of options: the live ambience volume.
 #include "options/option_parts.h"
 
-#define FLIGHT_COMMANDS (IN_AMBIENCE | IN_SAMPLE | IN_RENDER)
+#define FLIGHT_COMMANDS (IN_AMBIENCE | IN_SAMPLE | IN_RENDER | IN_VIEW)
 
 static const option rows[] = {
     {.id = OPTION_PATH,
-     .commands = FLIGHT_COMMANDS,
+     .commands = FLIGHT_COMMANDS & ~IN_VIEW,
      .group = GROUP_FLIGHT,
      .kind = KIND_TEXT,
      .name = "--path",

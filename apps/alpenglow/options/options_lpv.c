@@ -2,7 +2,7 @@
 // Rows of the table of options: light propagation volumes.
 #include "options/option_parts.h"
 
-#define VOLUME_COMMANDS (IN_SAMPLE | IN_RENDER | IN_LPV)
+#define VOLUME_COMMANDS (IN_SAMPLE | IN_RENDER | IN_LPV | IN_VIEW)
 
 static const option rows[] = {
     {.id = OPTION_GRID,
@@ -30,7 +30,7 @@ static const option rows[] = {
      .initial = "auto",
      .help = "Side of a cell of the finest grid. auto: the coarsest grid holds the scene."},
     {.id = OPTION_CELL,
-     .commands = IN_SAMPLE | IN_RENDER,
+     .commands = IN_SAMPLE | IN_RENDER | IN_VIEW,
      .group = GROUP_VOLUME,
      .kind = KIND_REAL,
      .name = "--cell",

@@ -79,7 +79,7 @@ static const option rows[] = {
      .help = "Light straight from lamps and suns on the surfaces in view, for reference, "
              "radiosity, probes, ambience and the models of ambient light."},
     {.id = OPTION_LOOKUP,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--lookup",

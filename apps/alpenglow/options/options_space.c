@@ -33,7 +33,7 @@ static const option rows[] = {
      .help = "Points, required: a line x,y,z,nx,ny,nz each, position in metres and "
              "normal. The first line may be names. - is standard input."},
     {.id = OPTION_PROBES,
-     .commands = IN_SAMPLE | IN_RENDER,
+     .commands = IN_SAMPLE | IN_RENDER | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--probes",
@@ -57,7 +57,7 @@ static const option rows[] = {
              "further columns are ignored. The first line may be names. - is standard "
              "input."},
     {.id = OPTION_SPACING,
-     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS,
+     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_REAL,
      .name = "--spacing",
@@ -70,7 +70,7 @@ static const option rows[] = {
      .help = "Distance of neighbouring probes of a grid. auto: about 4096 probes in the "
              "bounds."},
     {.id = OPTION_BOUNDS,
-     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS,
+     .commands = IN_PROBES | IN_SAMPLE | RAY_COMMANDS | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--bounds",

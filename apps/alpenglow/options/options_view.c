@@ -27,7 +27,7 @@ static const option rows[] = {
      .name = "--with",
      .value = "MODE",
      .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
-                "environment",
+                "environment|probes|ambience|lpv",
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
@@ -36,7 +36,10 @@ static const option rows[] = {
              "shadows are sharp. Panes that let half the light through or more cast no shadow, "
              "others a whole one.\n"
              "constant, hemisphere, ground-map, ambient-cube, environment: the models of ambient "
-             "light, as of render, with light as of direct (--direct)."},
+             "light, as of render, with light as of direct (--direct).\n"
+             "probes, ambience, lpv: these fields, as of render, with light as of direct (--read, "
+             "--direct). Along a flight the volume of ambience flies too, and that of lpv is lit "
+             "again in each picture."},
     {.id = OPTION_DIRECT,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -45,7 +48,21 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "on",
-     .help = "Light straight from lamps and suns, for the models of ambient light."},
+     .help = "Light straight from lamps and suns, for fields and the models of ambient light."},
+    {.id = OPTION_READ,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--read",
+     .value = "pixel|vertex|object",
+     .choices = "pixel|vertex|object",
+     .initial = "pixel",
+     .help = "Places where probes, ambience and lpv are read.\n"
+             "pixel: at every pixel, with its normal.\n"
+             "vertex: at every vertex, for both sides of double-sided surfaces; interpolated "
+             "between them.\n"
+             "object: once an object, at the middle of its bounds, in twelve directions; nine "
+             "spherical harmonics of these give every pixel the light of its normal."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

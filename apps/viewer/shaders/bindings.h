@@ -5,18 +5,20 @@
 #define VIEWER_BINDINGS_H
 
 // Storage buffers.
-#define BUFFER_POSITIONS 0     // float [vertex][3]
-#define BUFFER_NORMALS 1       // float [vertex][3]
-#define BUFFER_COLORS 2        // float [vertex][4]; one element where all are 1
-#define BUFFER_UVS 3           // float [slot in use][vertex][2]
-#define BUFFER_TRIANGLES 4     // uint [triangle][3]
-#define BUFFER_MATERIALS 5     // material [material + 1]; the last is that of no material
-#define BUFFER_MAP_UVS 6       // float [triangle][set][corner][2] of the light map
-#define BUFFER_MAP_TRIANGLES 7 // uint [triangle] page, and which sets count
-#define BUFFER_LIGHTS 8        // light [light]
-#define BUFFER_SHADOW_VIEWS 9  // shadow_view [view]
-#define BUFFER_AMBIENT 10      // an ambient model
-#define BUFFER_SUNS 0          // of pass_background: sun [sun]
+#define BUFFER_POSITIONS 0       // float [vertex][3]
+#define BUFFER_NORMALS 1         // float [vertex][3]
+#define BUFFER_COLORS 2          // float [vertex][4]; one element where all are 1
+#define BUFFER_UVS 3             // float [slot in use][vertex][2]
+#define BUFFER_TRIANGLES 4       // uint [triangle][3]
+#define BUFFER_MATERIALS 5       // material [material + 1]; the last is that of no material
+#define BUFFER_MAP_UVS 6         // float [triangle][set][corner][2] of the light map
+#define BUFFER_MAP_TRIANGLES 7   // uint [triangle] page, and which sets count
+#define BUFFER_LIGHTS 8          // light [light]
+#define BUFFER_SHADOW_VIEWS 9    // shadow_view [view]
+#define BUFFER_AMBIENT 10        // an ambient model
+#define BUFFER_FIELD_VERTICES 11 // float [front, back][vertex][3] irradiance
+#define BUFFER_FIELD_OBJECTS 12  // vec4 [surface][9] spherical harmonics of irradiance
+#define BUFFER_SUNS 0            // of pass_background: sun [sun]
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0
@@ -31,9 +33,12 @@
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
 #define TEXTURE_DEPTH 13        // of the layer before
-#define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
+#define TEXTURE_OPAQUE_DEPTH 19 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
+#define TEXTURE_FIELD 16
+#define TEXTURE_PROBE_LIGHT 17
+#define TEXTURE_PROBE_MOMENTS 18
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -54,6 +59,8 @@
 #define UNIFORM_PEELED 17    // int, of PEEL_...
 #define UNIFORM_LIGHTS 18    // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19   // int, an alp_ambient_model
+#define UNIFORM_SURFACE 20    // uint, of the scene
+#define UNIFORM_FIELD_READ 21 // int, READ_...
 // Of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu
@@ -84,6 +91,12 @@
 #define SKY_NONE 0
 #define SKY_COLORS 1
 #define SKY_IMAGE 2
+
+// Where a field is read; the order of --read.
+#define READ_PIXEL 0  // in TEXTURE_FIELD
+#define READ_VERTEX 1 // in BUFFER_FIELD_VERTICES
+#define READ_OBJECT 2 // in BUFFER_FIELD_OBJECTS
+#define READ_PROBES 3 // at pixels too, from the textures of probes
 
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u

@@ -18,3 +18,4 @@ layout(std430, binding = BUFFER_MATERIALS) readonly buffer material_list {
 };
 
 layout(location = UNIFORM_MATERIAL) uniform uint material_index;
+layout(location = UNIFORM_SURFACE) uniform uint surface_index;

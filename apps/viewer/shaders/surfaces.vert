@@ -15,6 +15,13 @@ layout(location = UNIFORM_COLORED) uniform bool colored;
 layout(location = UNIFORM_AXES) uniform vec3 axes[3];
 layout(location = UNIFORM_MAP_SETS) uniform uint map_sets;
 
+layout(std430, binding = BUFFER_FIELD_VERTICES) readonly buffer field_vertex_list {
+    float field_vertices[]; // [front, back][vertex][3]
+};
+
+layout(location = UNIFORM_FIELD_READ) uniform int field_read;
+
+out vec3 vertex_irradiance[2]; // of fronts and backs
 out vec3 vertex_normal;
 out vec3 vertex_blend; // the normal in the frame of the object
 out vec4 vertex_color;
@@ -38,6 +45,13 @@ vec2 read_uv(uint use, uint vertex)
     return vec2(dot(row_u, vec3(uv, 1.0)), dot(row_v, vec3(uv, 1.0)));
 }
 
+/// @param side 0 front, 1 back
+vec3 read_field(uint side, uint vertex)
+{
+    uint at = 3u * (side * vertex_count + vertex);
+    return vec3(field_vertices[at], field_vertices[at + 1u], field_vertices[at + 2u]);
+}
+
 void main()
 {
     uint corner = uint(gl_VertexID) % 3u;
@@ -53,6 +67,10 @@ void main()
     vertex_normal = three(vertex, true);
     vertex_blend = normalize(vec3(dot(vertex_normal, axes[0]), dot(vertex_normal, axes[1]),
                                   dot(vertex_normal, axes[2])));
+    for (uint side = 0u; side < 2u; side++) {
+        vertex_irradiance[side] =
+            field_read == READ_VERTEX ? read_field(side, vertex) : vec3(0.0);
+    }
     vertex_color = colored ? colors[vertex] : vec4(1.0);
     for (uint use = 0u; use < TEXTURE_USES; use++) {
         texture_uv[use] = read_uv(use, vertex);

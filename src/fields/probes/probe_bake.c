@@ -589,6 +589,11 @@ const uint8_t *alp_probes_states(const alp_probes *probes)
     return probes->volume.states;
 }
 
+const float *alp_probes_moments(const alp_probes *probes)
+{
+    return probes->volume.moments != NULL ? probes->volume.moments[0] : NULL;
+}
+
 void alp_probes_position(const alp_probes *probes, uint32_t index, double position[3])
 {
     const alpi_probe_volume *v = &probes->volume;

@@ -142,11 +142,39 @@ static const view_mode *mode_of(const alp_render_options *o)
     return view_mode_of(&line);
 }
 
+/// The mode of a name.
+static const view_mode *find_mode(const char *name)
+{
+    command_line line = {.command = COMMAND_VIEW};
+    const char *at = option_find(COMMAND_VIEW, "--with", 6)->choices;
+    const size_t length = strlen(name);
+    while (strncmp(at, name, length) != 0 || (at[length] != '|' && at[length] != '\0')) {
+        at = strchr(at, '|') + 1;
+        line.values[OPTION_WITH].choice++;
+    }
+    return view_mode_of(&line);
+}
+
+/// The light of the mode of render's method.
+static mode_light light_of(const alp_scene *scene, const alp_render_options *o)
+{
+    mode_light light = {0};
+    if (o->lightmap != NULL) {
+        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &light.lightmap),
+                         EXIT_DONE);
+    }
+    if (o->field != NULL) {
+        gl_ambient_create(o->field, &light.ambient);
+    }
+    return light;
+}
+
 static void draw(const alp_scene *scene, const alp_render_options *o, const alp_camera *camera,
-                 alp_film_options film, test_pair *pair)
+                 alp_film_options film, const drawing_options *mode, test_pair *pair)
 {
     const drawing_options options = {.context = scene->context,
-                                     .mode = mode_of(o),
+                                     .mode = mode->mode,
+                                     .light = mode->light,
                                      .lighting = &o->lighting,
                                      .width = o->width,
                                      .height = o->height,
@@ -157,13 +185,6 @@ static void draw(const alp_scene *scene, const alp_render_options *o, const alp_
     uint32_t *triangles = malloc((size_t)o->width * o->height * sizeof *triangles);
     assert_non_null(triangles);
     assert_int_equal(drawing_create(scene, &options, &d), EXIT_DONE);
-    if (o->lightmap != NULL) {
-        assert_int_equal(
-            gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &d.light.lightmap), EXIT_DONE);
-    }
-    if (o->field != NULL) {
-        gl_ambient_create(o->field, &d.light.ambient);
-    }
     drawing_draw(&d, camera);
     ASSERT_OK(scene->context,
               drawing_develop(&d, scene->context, &film, &pair->drawn, &pair->drawn_light));
@@ -178,7 +199,8 @@ static void draw(const alp_scene *scene, const alp_render_options *o, const alp_
     test_gl_check();
 }
 
-test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options)
+static test_pair make_pair(const drawing_options *mode, const alp_scene *scene,
+                           const alp_render_options *options)
 {
     test_pair pair = {.width = options->width, .height = options->height};
     alp_render_options o = *options;
@@ -191,8 +213,20 @@ test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options
     ASSERT_OK(scene->context,
               alp_film_develop(pair.rendered_light, &film, &pair.rendered, &film.exposure));
     film.auto_exposure = false; // the same of both
-    draw(scene, &o, &camera, film, &pair);
+    draw(scene, &o, &camera, film, mode, &pair);
     return pair;
+}
+
+test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options)
+{
+    const drawing_options mode = {.mode = mode_of(options), .light = light_of(scene, options)};
+    return make_pair(&mode, scene, options);
+}
+
+test_pair test_gl_pair_in(const char *mode, mode_light light, const alp_scene *scene,
+                          const alp_render_options *options)
+{
+    return make_pair(&(drawing_options){.mode = find_mode(mode), .light = light}, scene, options);
 }
 
 void test_pair_destroy(test_pair *pair)

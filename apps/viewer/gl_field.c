@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "gl_field.h"
+
+#include "field_objects.h"
+#include "field_points.h"
+#include "messages.h"
+#include "options/options.h"
+#include "shaders/bindings.h"
+
+#include <alpenglow/geometry.h>
+
+#include <stdlib.h>
+
+enum { SIDES = 2 };
+
+static GLuint make_buffer(size_t size)
+{
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, (GLsizeiptr)(size > 0 ? size : 1), NULL, GL_DYNAMIC_STORAGE_BIT);
+    return buffer;
+}
+
+void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
+                     gl_field *d)
+{
+    const alp_scene_info info = alp_scene_get_info(scene);
+    const size_t vertices = alp_scene_get_geometry(scene).vertex_count;
+    enum { OBJECT_SIZE = FIELD_OBJECT_COEFFICIENTS * 4 * sizeof(float) };
+    *d = (gl_field){.read = read, .workers = 1};
+    d->vertices = make_buffer(read == READ_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
+    d->objects = make_buffer(read == READ_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
+    glCreateTextures(GL_TEXTURE_2D, 1, &d->pixels);
+    const bool pixels = read == READ_PIXEL;
+    glTextureStorage2D(d->pixels, 1, GL_RGBA32F, pixels ? (GLsizei)width : 1,
+                       pixels ? (GLsizei)height : 1);
+}
+
+void gl_field_destroy(gl_field *d)
+{
+    if (d->pixels != 0) {
+        glDeleteBuffers(1, &d->vertices);
+        glDeleteBuffers(1, &d->objects);
+        glDeleteTextures(1, &d->pixels);
+        gl_probes_destroy(&d->probes);
+    }
+    *d = (gl_field){0};
+}
+
+void gl_field_set(gl_field *d, const alp_field *field)
+{
+    d->field = field;
+    d->changed = true;
+}
+
+void gl_field_set_probes(gl_field *d, const alp_probes *probes, const double origin[3])
+{
+    if (d->read == READ_PIXEL && gl_probes_can_read(probes)) {
+        gl_probes_create(probes, origin, &d->probes);
+        d->read = READ_PROBES;
+    }
+}
+
+// --- vertices ------------------------------------------------------------------------------------
+
+static bool has_double_sided(const alp_scene *scene)
+{
+    const uint32_t count = alp_scene_get_info(scene).surfaces;
+    bool found = false;
+    for (uint32_t i = 0; i < count && !found; i++) {
+        found = alp_scene_get_surface(scene, i).double_sided;
+    }
+    return found;
+}
+
+/// Normals of the backs.
+static void turn(const alp_geometry *g, float (*normals)[3])
+{
+    for (uint32_t i = 0; i < g->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            normals[i][k] = -g->normals[i][k];
+        }
+    }
+}
+
+static void read_vertices(const gl_field *d, const alp_scene *scene)
+{
+    const alp_geometry g = alp_scene_get_geometry(scene);
+    const size_t size = (size_t)g.vertex_count * sizeof(float[3]);
+    float(*irradiance)[3] = allocate_or_exit(NULL, size + 1), (*backs)[3] = NULL;
+    field_points_read(d->field, d->workers, g.vertex_count, g.positions, g.normals, irradiance);
+    glNamedBufferSubData(d->vertices, 0, (GLsizeiptr)size, irradiance);
+    if (has_double_sided(scene)) {
+        backs = allocate_or_exit(NULL, size + 1);
+        turn(&g, backs);
+        field_points_read(d->field, d->workers, g.vertex_count, g.positions,
+                          (const float(*)[3])backs, irradiance);
+        glNamedBufferSubData(d->vertices, (GLintptr)size, (GLsizeiptr)size, irradiance);
+    }
+    free(backs);
+    free(irradiance);
+}
+
+// --- objects -------------------------------------------------------------------------------------
+
+static void read_objects(const gl_field *d, const alp_scene *scene)
+{
+    const size_t count = alp_scene_get_info(scene).surfaces;
+    float(*coefficients)[FIELD_OBJECT_COEFFICIENTS][4] =
+        allocate_or_exit(NULL, count * sizeof *coefficients + 1);
+    field_objects_read(d->field, d->workers, scene, coefficients);
+    glNamedBufferSubData(d->objects, 0, (GLsizeiptr)(count * sizeof *coefficients), coefficients);
+    free(coefficients);
+}
+
+void gl_field_update(gl_field *d, const alp_scene *scene)
+{
+    if (d->changed && d->read == READ_VERTEX) {
+        read_vertices(d, scene);
+    }
+    if (d->changed && d->read == READ_OBJECT) {
+        read_objects(d, scene);
+    }
+    d->changed = false;
+}
+
+void gl_field_bind(const gl_field *d, GLuint program)
+{
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_FIELD_VERTICES, d->vertices);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_FIELD_OBJECTS, d->objects);
+    glBindTextureUnit(TEXTURE_FIELD, d->pixels);
+    glUniform1i(UNIFORM_FIELD_READ, d->read);
+    gl_probes_bind(&d->probes, program);
+}
