@@ -173,11 +173,17 @@ int field_ambience(session *s, const command_line *a, const alp_lighting_options
                              : code;
 }
 
+int field_lpv_open(session *s, const command_line *a, const alp_lighting_options *lighting,
+                   const alp_camera *camera, field_source *source)
+{
+    source->lpv = allocate_or_exit(NULL, sizeof *source->lpv);
+    return lpv_run_open(s, a, lighting, camera, source->lpv);
+}
+
 int field_lpv(session *s, const command_line *a, const alp_lighting_options *lighting,
               const alp_camera *camera, field_source *source)
 {
-    source->lpv = allocate_or_exit(NULL, sizeof *source->lpv);
-    const int code = lpv_run_open(s, a, lighting, camera, source->lpv);
+    const int code = field_lpv_open(s, a, lighting, camera, source);
     if (code != EXIT_DONE) {
         return code;
     }

@@ -48,6 +48,11 @@ alp_result field_ambience_reach(field_source *source, double time);
 /// @return EXIT_DONE, or an exit code after a message
 int field_ambience(session *s, const command_line *arguments, const alp_lighting_options *lighting,
                    field_source *source);
+/// Makes a volume, which holds no light yet, without a field.
+/// @param camera NULL, or the view of a picture
+/// @return EXIT_DONE, or an exit code after a message
+int field_lpv_open(session *s, const command_line *arguments, const alp_lighting_options *lighting,
+                   const alp_camera *camera, field_source *source);
 /// Makes a volume, lights it once, and makes its field.
 /// @param camera NULL, or the view of a picture
 /// @return EXIT_DONE, or an exit code after a message

@@ -15,8 +15,8 @@ static int make_ambience(session *s, const command_line *a, alp_render_options *
     return code;
 }
 
-/// Propagates light through grids that follow the camera of the picture.
-static int make_lpv(session *s, const command_line *a, alp_render_options *o, field_source *source)
+/// Finds the camera, which the grids follow.
+static int find_camera(session *s, const command_line *a, alp_render_options *o)
 {
     if (a->values[OPTION_SKY].given) {
         session_warn(s, "no-sky", "--sky",
@@ -24,8 +24,21 @@ static int make_lpv(session *s, const command_line *a, alp_render_options *o, fi
                      "holds its light");
     }
     const alp_result result = alp_render_find_camera(s->scene, o, &o->camera);
-    const int code = result == ALP_OK ? field_lpv(s, a, &o->lighting, &o->camera, source)
-                                      : session_end(s, result);
+    return result == ALP_OK ? EXIT_DONE : session_end(s, result);
+}
+
+int picture_field_open_lpv(session *s, const command_line *a, alp_render_options *o,
+                           field_source *source)
+{
+    const int code = find_camera(s, a, o);
+    return code == EXIT_DONE ? field_lpv_open(s, a, &o->lighting, &o->camera, source) : code;
+}
+
+/// Propagates light through grids that follow the camera of the picture.
+static int make_lpv(session *s, const command_line *a, alp_render_options *o, field_source *source)
+{
+    int code = find_camera(s, a, o);
+    code = code == EXIT_DONE ? field_lpv(s, a, &o->lighting, &o->camera, source) : code;
     o->lpv = source->lpv != NULL ? source->lpv->lpv : NULL;
     return code;
 }

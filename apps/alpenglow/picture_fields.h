@@ -20,5 +20,9 @@ typedef struct picture_field {
 /// @return EXIT_DONE, or an exit code after a message; field_source_clear in both cases
 int picture_field_make(session *s, const command_line *arguments, picture_field field,
                        alp_render_options *options, field_source *source);
+/// Makes the volume of a picture, which holds no light yet: for hosts that light it themselves.
+/// @return EXIT_DONE, or an exit code after a message; field_source_clear in both cases
+int picture_field_open_lpv(session *s, const command_line *arguments, alp_render_options *options,
+                           field_source *source);
 
 #endif

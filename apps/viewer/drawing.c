@@ -14,9 +14,12 @@ static bool reads_pixels(const drawing *d)
 }
 
 /// Draws the shadows of what does not move once.
-static int add_lights(const alp_scene *scene, const alp_lighting_options *lighting, drawing *d)
+/// @param seen whether they light surfaces, beside a volume
+static int add_lights(const alp_scene *scene, const alp_lighting_options *lighting, bool seen,
+                      drawing *d)
 {
     int code = gl_lights_create(scene, lighting, &d->light.lights);
+    d->light.lights.unseen = !seen;
     code = code == EXIT_DONE ? pass_shadows_create(&d->shadows) : code;
     if (code == EXIT_DONE) {
         pass_shadows_draw(&d->shadows, &d->drawn, &d->light.lights);
@@ -41,14 +44,20 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
     code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    if (code == EXIT_DONE && d->light.scattering > 0.0f) {
+        code = pass_air_create(&d->air);
+    }
     const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
-    return code == EXIT_DONE && lit ? add_lights(scene, o->lighting, d) : code;
+    return code == EXIT_DONE && (lit || d->light.lpv != NULL)
+               ? add_lights(scene, o->lighting, lit, d)
+               : code;
 }
 
 void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
     gl_scene_destroy(&d->drawn);
+    pass_air_destroy(&d->air);
     pass_shadows_destroy(&d->shadows);
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);
@@ -60,12 +69,12 @@ void drawing_destroy(drawing *d)
 
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
 {
-    const bool lit = d->shadows.program != 0;
+    const bool lit = d->shadows.program != 0, seen = !d->light.lights.unseen;
     pass_background_destroy(&d->background);
     pass_shadows_destroy(&d->shadows);
     gl_lights_destroy(&d->light.lights);
     const int code = pass_background_create(context, d->scene, lighting, &d->background);
-    return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, d) : code;
+    return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, seen, d) : code;
 }
 
 static void draw_opaque(const drawing *d, const camera_view *view)
@@ -86,6 +95,22 @@ static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer
     return pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
 }
 
+/// Lights the volume. Several grids follow the camera.
+static void light_volume(drawing *d, const camera_view *view)
+{
+    const alp_lpv_options *o = &d->light.lpv->volume.options;
+    lpv_frame_scene in = {.scene = d->scene,
+                          .drawn = &d->drawn,
+                          .lights = &d->light.lights,
+                          .camera = view,
+                          .metals_black = d->surfaces.metals_black};
+    for (int k = 0; k < 3; k++) {
+        in.eye[k] = o->cascades > 1 ? (double)view->origin[k] : o->centre[k];
+        in.forward[k] = o->cascades > 1 ? (double)view->forward[k] : 0.0;
+    }
+    lpv_frame_light(d->light.lpv, &in);
+}
+
 void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
@@ -93,6 +118,9 @@ void drawing_draw(drawing *d, const alp_camera *camera)
     const camera_view view = camera_view_of(camera, t->width, t->height, &info);
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
+    if (d->light.lpv != NULL) {
+        light_volume(d, &view);
+    }
     pass_layers_clear(t);
     gl_field_update(&d->light.field, d->scene);
     draw_opaque(d, &view);
@@ -100,6 +128,10 @@ void drawing_draw(drawing *d, const alp_camera *camera)
         pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
     pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
+    if (d->light.scattering > 0.0f) {
+        const mist m = {d->light.scattering, &d->light.lpv->volume, &d->light.lights, &info};
+        pass_air_draw(&d->air, &m, &view, t, layer);
+    }
     pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
 }
 

@@ -3,6 +3,7 @@
 #ifndef VIEWER_DRAWING_H
 #define VIEWER_DRAWING_H
 
+#include "pass_air.h"
 #include "pass_background.h"
 #include "pass_field.h"
 #include "pass_film.h"
@@ -20,6 +21,7 @@ typedef struct drawing {
     pass_background background;
     pass_film film;
     pass_shadows shadows;
+    pass_air air;     // of a volume's mist
     mode_light light; // of the mode; owned
 } drawing;
 

@@ -61,6 +61,13 @@ void gl_field_set_probes(gl_field *d, const alp_probes *probes, const double ori
     }
 }
 
+void gl_field_set_volume(gl_field *d, const gl_lpv *volume, bool gloss)
+{
+    d->volume = volume;
+    d->gloss = gloss;
+    d->read = READ_LPV;
+}
+
 // --- vertices ------------------------------------------------------------------------------------
 
 static bool has_double_sided(const alp_scene *scene)
@@ -131,4 +138,8 @@ void gl_field_bind(const gl_field *d, GLuint program)
     glBindTextureUnit(TEXTURE_FIELD, d->pixels);
     glUniform1i(UNIFORM_FIELD_READ, d->read);
     gl_probes_bind(&d->probes, program);
+    glUniform1i(UNIFORM_LPV_GLOSS, d->gloss);
+    if (d->volume != NULL) {
+        gl_lpv_bind(d->volume);
+    }
 }

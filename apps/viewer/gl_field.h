@@ -6,6 +6,7 @@
 
 #include <alpenglow/field.h>
 
+#include "gl_lpv.h"
 #include "gl_probes.h"
 
 #include <epoxy/gl.h>
@@ -21,6 +22,8 @@ typedef struct gl_field {
     GLuint objects;         // BUFFER_FIELD_OBJECTS
     GLuint pixels;          // TEXTURE_FIELD; pass_field fills it
     gl_probes probes;       // of READ_PROBES
+    const gl_lpv *volume;   // borrowed, of READ_LPV
+    bool gloss;             // surfaces mirror its light
 } gl_field;
 
 /// Makes what a kind of reading needs.
@@ -36,6 +39,8 @@ void gl_field_set(gl_field *drawn, const alp_field *field);
 /// and pixels are read.
 /// @param origin of the scene in the world of its file
 void gl_field_set_probes(gl_field *drawn, const alp_probes *probes, const double origin[3]);
+/// Reads a volume on the card from now on.
+void gl_field_set_volume(gl_field *drawn, const gl_lpv *volume, bool gloss);
 /// Reads the field at vertices or objects, if it has changed.
 void gl_field_update(gl_field *drawn, const alp_scene *scene);
 /// Binds buffers and textures, and sets the uniforms of the current program.

@@ -272,7 +272,7 @@ void gl_lights_destroy(gl_lights *d)
 
 void gl_lights_bind(const gl_lights *d)
 {
-    glUniform1ui(UNIFORM_LIGHTS, d->count);
+    glUniform1ui(UNIFORM_LIGHTS, d->unseen ? 0 : d->count);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LIGHTS, d->lights);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_SHADOW_VIEWS, d->views);
     glBindTextureUnit(TEXTURE_SUN_SHADOWS, d->sun_shadows);

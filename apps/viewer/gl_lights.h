@@ -9,6 +9,8 @@
 
 #include <epoxy/gl.h>
 
+#include <stdbool.h>
+
 /// A layer of a shadow map.
 typedef struct gl_shadow_view {
     camera_view view;
@@ -23,6 +25,7 @@ typedef struct gl_lights {
     uint32_t count;                   // lights
     gl_shadow_view *shadow_views;     // [view_count]
     uint32_t view_count;
+    bool unseen; // they light a volume, and no surface straight
 } gl_lights;
 
 /// Lists the lights of the file and of the options, and makes empty shadow maps. A sun's map holds

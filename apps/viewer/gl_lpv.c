@@ -80,19 +80,40 @@ void gl_lpv_destroy(gl_lpv *v)
     *v = (gl_lpv){0};
 }
 
-/// Makes the program of a pass current, with what all passes know.
-static void use(const gl_lpv *v, int pass)
+/// Sets what all shaders know: lpv_grid.glsl.
+static void set_grid(const gl_lpv *v)
 {
     const uint32_t *size = v->options.size;
     const bool accurate = v->options.mode == ALP_LPV_ACCURATE;
     const float along = (float)ALP_LPV_ALONG, aside = (float)ALP_LPV_ASIDE;
-    glUseProgram(v->programs[pass]);
     glUniform3i(UNIFORM_LPV_SIZE, (GLint)size[0], (GLint)size[1], (GLint)size[2]);
     glUniform1i(UNIFORM_LPV_CASCADES, (GLint)v->options.cascades);
     glUniform3f(UNIFORM_LPV_READ, 1.0f, along, aside);
     glUniform2f(UNIFORM_LPV_GIVE, accurate ? along : 0.0f, accurate ? aside : 1.0f);
     glUniform1f(UNIFORM_LPV_OPACITY, accurate ? (float)ALP_LPV_OPACITY : 1.0f);
     glUniform1i(UNIFORM_LPV_BY_ANGLE, accurate);
+}
+
+/// Sets where the grids are: lpv_cascades.glsl.
+static void set_places(const gl_lpv *v)
+{
+    glUniform1f(UNIFORM_LPV_CELL, (float)v->options.cell);
+    glUniform3fv(UNIFORM_LPV_CORNERS, LPV_CASCADES_MOST, &v->corners[0][0]);
+    glUniform3fv(UNIFORM_LPV_CENTRES, LPV_CASCADES_MOST, &v->centres[0][0]);
+}
+
+void gl_lpv_bind(const gl_lpv *v)
+{
+    set_grid(v);
+    set_places(v);
+    glBindTextureUnit(TEXTURE_LPV_SUM, v->sum);
+}
+
+/// Makes the program of a pass current.
+static void use(const gl_lpv *v, int pass)
+{
+    glUseProgram(v->programs[pass]);
+    set_grid(v);
 }
 
 /// Runs the current program for each of size[0] × size[1] × size[2] × cascades elements.
@@ -139,10 +160,8 @@ void gl_lpv_begin(gl_lpv *v, const float flux[3])
 static void use_map(const gl_lpv *v, int pass, const gl_lpv_map *map)
 {
     use(v, pass);
-    glUniform1f(UNIFORM_LPV_CELL, (float)v->options.cell);
+    set_places(v);
     glUniform1i(UNIFORM_LPV_MAP, map->cascade);
-    glUniform3fv(UNIFORM_LPV_CORNERS, LPV_CASCADES_MOST, &v->corners[0][0]);
-    glUniform3fv(UNIFORM_LPV_CENTRES, LPV_CASCADES_MOST, &v->centres[0][0]);
     glBindTextureUnit(0, map->positions);
     glBindTextureUnit(1, map->normals);
 }

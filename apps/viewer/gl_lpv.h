@@ -59,6 +59,8 @@ void gl_lpv_add_light(const gl_lpv *volume, const gl_lpv_map *map);
 void gl_lpv_add_blockers(const gl_lpv *volume, const gl_lpv_map *map, bool only);
 /// Ends a view: views are merged, as they show the same surfaces.
 void gl_lpv_end_view(const gl_lpv *volume);
+/// Sets what shaders need that read the volume (lpv.glsl), in the current program.
+void gl_lpv_bind(const gl_lpv *volume);
 /// Lets what was injected travel: as alp_lpv_propagate.
 void gl_lpv_propagate(gl_lpv *volume);
 

@@ -14,6 +14,7 @@ extern const gl_shader shader_points_frag, shader_field_frag;                   
 extern const gl_shader shader_screen_vert; // the whole picture
 extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_frag;
 extern const gl_shader shader_map_frag; // a reflective shadow map
+extern const gl_shader shader_air_frag;
 extern const gl_shader shader_lpv_light_comp, shader_lpv_blockers_comp, shader_lpv_merge_comp;
 extern const gl_shader shader_lpv_faces_comp, shader_lpv_start_comp, shader_lpv_step_comp;
 

@@ -5,6 +5,8 @@
 #include "mode_fields.h"
 #include "shader_list.h"
 
+#include <stdlib.h>
+
 static int prepare_lightmap(session *s, const command_line *a, alp_render_options *o,
                             mode_light *light)
 {
@@ -175,6 +177,11 @@ int view_mode_check(const command_line *a)
                                a->values[OPTION_WITH].text);
         }
     }
+    const bool card = a->values[OPTION_READ].choice == READ_PIXEL;
+    if (!card && (a->values[OPTION_GLOSS].given || a->values[OPTION_MEDIA].given)) {
+        return usage_error(COMMAND_VIEW, "%s: needs --read pixel",
+                           a->values[OPTION_GLOSS].given ? "--gloss" : "--media");
+    }
     return field_check(a, view_mode_of(a)->field.model);
 }
 
@@ -189,5 +196,9 @@ void mode_light_destroy(mode_light *light)
     gl_ambient_destroy(&light->ambient);
     gl_lights_destroy(&light->lights);
     gl_field_destroy(&light->field);
+    if (light->lpv != NULL) {
+        lpv_frame_destroy(light->lpv);
+        free(light->lpv);
+    }
     field_source_clear(&light->source);
 }

@@ -8,6 +8,7 @@
 #include "gl_lightmap.h"
 #include "gl_lights.h"
 #include "gl_program.h"
+#include "lpv_frame.h"
 #include "picture_fields.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
@@ -16,6 +17,8 @@ typedef struct mode_light {
     gl_ambient ambient;
     gl_field field;
     field_source source; // of `field`
+    lpv_frame *lpv;      // the volume on the card that `field` reads, or NULL
+    float scattering;    // of mist that shows its light, 1/metre
     gl_lights lights;
 } mode_light;
 

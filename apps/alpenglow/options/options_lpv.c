@@ -104,7 +104,7 @@ static const option rows[] = {
      .help = "Texels along each side of a map of what a lamp lights. Large maps flicker less where "
              "lamps move."},
     {.id = OPTION_GLOSS,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_VOLUME,
      .kind = KIND_FLAG,
      .name = "--gloss",
@@ -112,7 +112,7 @@ static const option rows[] = {
          "Surfaces mirror the light of the volume: 4 % of it head-on, metals their base colour, "
          "all of it at grazing angles."},
     {.id = OPTION_MEDIA,
-     .commands = IN_RENDER,
+     .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_VOLUME,
      .kind = KIND_REAL,
      .name = "--media",

@@ -9,7 +9,11 @@
 layout(location = UNIFORM_AIR_SCATTERING) uniform float scattering; // 1/metre
 layout(location = UNIFORM_AIR_LOW) uniform vec3 bounds_low;         // metres
 layout(location = UNIFORM_AIR_HIGH) uniform vec3 bounds_high;
-layout(binding = TEXTURE_DEPTH) uniform sampler2D surface_depth; // of the opaque surfaces
+
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaque_depth;
+
+layout(location = 0) out vec4 scattered_light; // alpha: the share that is scattered
+layout(location = 1) out vec4 left;            // of light from behind; by alpha too
 
 const int steps = 32;
 
@@ -28,7 +32,7 @@ vec3 lamp_fluence(vec3 position)
 void main()
 {
     vec3 ray = ray_of_pixel(), way = normalize(ray);
-    float depth = texelFetch(surface_depth, ivec2(gl_FragCoord.xy), 0).r;
+    float depth = texelFetch(opaque_depth, ivec2(gl_FragCoord.xy), 0).r;
     float end = depth > 0.0 ? camera_near / depth * length(ray) : 1e30;
     vec3 a = (bounds_low - camera_origin) / way, b = (bounds_high - camera_origin) / way;
     vec3 enter = min(a, b), leave = max(a, b);
@@ -42,5 +46,6 @@ void main()
         vec3 position = camera_origin + t * way;
         sum += lpv_fluence(position) + lamp_fluence(position);
     }
-    picture = vec4(scattered / (4.0 * ALP_SH_A0 * float(steps)) * sum, scattered);
+    scattered_light = vec4(scattered / (4.0 * ALP_SH_A0 * float(steps)) * sum, scattered);
+    left = vec4(0.0, 0.0, 0.0, scattered);
 }

@@ -3,6 +3,7 @@
 // irradiance straight from lamps and suns).
 #include "ambient.glsl"
 #include "lights.glsl"
+#include "place.glsl"
 
 void main()
 {

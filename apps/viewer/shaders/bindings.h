@@ -49,16 +49,16 @@
 #define UNIFORM_SIZE 5     // vec2, pixels
 #define UNIFORM_PARALLEL 6 // bool, whether rays are parallel
 // Of pass_surfaces.
-#define UNIFORM_MATERIAL 8   // uint
-#define UNIFORM_VERTICES 9   // uint, vertices of the scene
-#define UNIFORM_COLORED 10   // bool, whether vertices have colours
-#define UNIFORM_METALS 11    // bool, whether metals are black
-#define UNIFORM_AXES 12      // vec3 [3] of the surface's object
-#define UNIFORM_MAP_SETS 15  // uint, coordinate sets of the light map: 1, or 3 that are blended
-#define UNIFORM_MAP_EQUAL 16 // bool, whether sets that count have equal weight
-#define UNIFORM_PEELED 17    // int, of PEEL_...
-#define UNIFORM_LIGHTS 18    // uint, lights of BUFFER_LIGHTS
-#define UNIFORM_AMBIENT 19   // int, an alp_ambient_model
+#define UNIFORM_MATERIAL 8    // uint
+#define UNIFORM_VERTICES 9    // uint, vertices of the scene
+#define UNIFORM_COLORED 10    // bool, whether vertices have colours
+#define UNIFORM_METALS 11     // bool, whether metals are black
+#define UNIFORM_AXES 12       // vec3 [3] of the surface's object
+#define UNIFORM_MAP_SETS 15   // uint, coordinate sets of the light map: 1, or 3 that are blended
+#define UNIFORM_MAP_EQUAL 16  // bool, whether sets that count have equal weight
+#define UNIFORM_PEELED 17     // int, of PEEL_...
+#define UNIFORM_LIGHTS 18     // uint, lights of BUFFER_LIGHTS
+#define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
 #define UNIFORM_SURFACE 20    // uint, of the scene
 #define UNIFORM_FIELD_READ 21 // int, READ_...
 // Of pass_maps.
@@ -97,6 +97,7 @@
 #define READ_VERTEX 1 // in BUFFER_FIELD_VERTICES
 #define READ_OBJECT 2 // in BUFFER_FIELD_OBJECTS
 #define READ_PROBES 3 // at pixels too, from the textures of probes
+#define READ_LPV 4    // at pixels too, from the volume on the card
 
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u

@@ -1,6 +1,7 @@
 #version 450 core
 // --with direct: emission + albedo / pi * irradiance straight from lamps and suns.
 #include "lights.glsl"
+#include "place.glsl"
 
 void main()
 {

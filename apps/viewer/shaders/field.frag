@@ -2,6 +2,8 @@
 // Fields of light: emission + albedo / pi * (irradiance of the field + irradiance straight from
 // lamps and suns). The field is read at pixels, vertices or objects.
 #include "lights.glsl"
+#include "place.glsl"
+#include "lpv.glsl"
 #include "probes.glsl"
 
 layout(binding = TEXTURE_FIELD) uniform sampler2D field_picture; // [pixel] irradiance
@@ -10,6 +12,7 @@ layout(std430, binding = BUFFER_FIELD_OBJECTS) readonly buffer field_object_list
 };
 
 layout(location = UNIFORM_FIELD_READ) uniform int field_read;
+layout(location = UNIFORM_LPV_GLOSS) uniform bool gloss;
 
 in vec3 vertex_irradiance[2]; // of fronts and backs
 
@@ -39,9 +42,30 @@ vec3 field_irradiance(place p)
         return alpenglowProbeIrradiance(p.position, p.normal);
     case READ_OBJECT:
         return object_irradiance(p.normal);
+    case READ_LPV:
+        return lpv_irradiance(p.position, p.normal);
     default:
         return texelFetch(field_picture, ivec2(gl_FragCoord.xy), 0).rgb;
     }
+}
+
+/// Schlick's approximation of the share that a surface mirrors: .04 of a dielectric head-on, the
+/// base colour of a metal.
+vec3 find_fresnel(vec3 albedo, float metal, float cosine)
+{
+    float dull = 1.0 - clamp(cosine, 0.0, 1.0);
+    vec3 ahead = mix(vec3(0.04), albedo, metal);
+    return ahead + dull * dull * dull * dull * dull * (1.0 - ahead);
+}
+
+/// Exchanges a share of diffuse light for the light of the volume along the mirrored ray.
+vec3 add_gloss(vec3 diffuse, vec3 albedo, place p)
+{
+    vec3 toward = -normalize(ray_of_pixel());
+    float cosine = dot(p.normal, toward), metal = clamp(metalness(), 0.0, 1.0);
+    vec3 share = find_fresnel(albedo, metal, cosine);
+    vec3 mirrored = lpv_radiance(p.position, 2.0 * cosine * p.normal - toward);
+    return (1.0 - share) * (1.0 - metal) * diffuse + share * mirrored;
 }
 
 void main()
@@ -49,6 +73,7 @@ void main()
     surface s = read_surface(true);
     place p = find_place();
     vec3 irradiance = field_irradiance(p) + direct_irradiance(p);
-    vec3 light = s.emission + s.kept * s.albedo / ALP_SH_A0 * irradiance;
+    vec3 diffuse = s.albedo / ALP_SH_A0 * irradiance;
+    vec3 light = s.emission + s.kept * (gloss ? add_gloss(diffuse, s.albedo, p) : diffuse);
     picture = vec4(s.dark ? vec3(0.0) : light, 1.0);
 }

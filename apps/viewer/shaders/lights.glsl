@@ -1,7 +1,7 @@
 // Light straight from lamps and suns, with shadow maps. Units and formulas are those of
 // KHR_lights_punctual, as src/scene/lights/lighting_punctual.c has them. A sun is a point here: its
 // shadows are sharp.
-#include "place.glsl"
+#include "pixel.glsl"
 
 struct light {
     vec4 position;  // metres; w: 1 / range, 0 without a range

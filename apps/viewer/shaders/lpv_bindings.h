@@ -37,5 +37,10 @@
 #define UNIFORM_LPV_MAP 75     // int, the cascade of the map; -1: of all
 #define UNIFORM_LPV_CORNERS 76 // vec3 [LPV_CASCADES_MOST], cells from the origin
 #define UNIFORM_LPV_CENTRES 84 // vec3 [LPV_CASCADES_MOST], metres, before they are rounded
+// Of surfaces and air that read a volume.
+#define UNIFORM_LPV_GLOSS 92      // bool, whether surfaces mirror its light
+#define UNIFORM_AIR_SCATTERING 93 // float, 1/metre
+#define UNIFORM_AIR_LOW 94        // vec3, metres, bounds of the scene
+#define UNIFORM_AIR_HIGH 95       // vec3
 
 #endif

@@ -2,6 +2,7 @@
 // A reflective shadow map: what each texel of a light's view sees, and the flux that is reflected
 // there. Materials with glass are opaque, as in the library's maps.
 #include "lights.glsl"
+#include "place.glsl"
 
 layout(location = UNIFORM_MAP_LIGHT) uniform uint map_light; // MAP_NO_LIGHT: no flux
 

@@ -1,35 +1,14 @@
 // Where the camera sees a surface, as a ray finds it: precise however near the camera is.
-#include "camera.glsl"
+#include "pixel.glsl"
 #include "surface.glsl"
 
 layout(std430, binding = BUFFER_POSITIONS) readonly buffer position_list { float positions[]; };
 layout(std430, binding = BUFFER_TRIANGLES) readonly buffer triangle_list { uint triangles[]; };
 
-struct place {
-    vec3 position;  // metres
-    vec3 geometric; // unit normal of the triangle, on the side of the camera
-    vec3 normal;    // unit normal that shades, on the same side
-};
-
 vec3 corner(uint k)
 {
     uint at = 3u * triangles[3u * triangle_index + k];
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
-}
-
-/// The way of the camera's ray through this pixel; not unit.
-vec3 ray_of_pixel()
-{
-    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
-    return camera_parallel ? camera_forward
-                           : camera_forward + at.x * camera_right - at.y * camera_up;
-}
-
-vec3 origin_of_pixel()
-{
-    vec2 at = 2.0 * gl_FragCoord.xy / picture_size - 1.0;
-    return camera_parallel ? camera_origin + at.x * camera_right - at.y * camera_up
-                           : camera_origin;
 }
 
 /// A shading normal that points below the triangle is replaced by the triangle's.

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Draws mist before the surfaces: the light of a volume and of lamps that it scatters.
+#ifndef VIEWER_PASS_AIR_H
+#define VIEWER_PASS_AIR_H
+
+#include "camera_view.h"
+#include "gl_lights.h"
+#include "gl_lpv.h"
+#include "gl_targets.h"
+
+typedef struct pass_air {
+    GLuint program, array;
+} pass_air;
+
+/// @return EXIT_DONE, or EXIT_FAILED after a message; pass_air_destroy in both cases
+int pass_air_create(pass_air *pass);
+void pass_air_destroy(pass_air *pass);
+
+typedef struct mist {
+    float scattering; // 1/metre
+    const gl_lpv *volume;
+    const gl_lights *lights;
+    const alp_scene_info *info;
+} mist;
+/// Puts mist before the sum of all layers.
+/// @param layer number of layers so far
+void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
+                   const gl_targets *targets, uint32_t layer);
+
+#endif
