@@ -40,7 +40,8 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     }
     code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
-    code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    code =
+        code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, o->normal_maps, &d->drawn) : code;
     const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
     return code == EXIT_DONE && lit ? add_lights(scene, o->lighting, d) : code;
 }

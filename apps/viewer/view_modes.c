@@ -66,7 +66,7 @@ static void bind_ambient(const mode_light *light, GLuint program)
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS
 };
 
 /// In the order of the choices of --with.
@@ -81,7 +81,7 @@ static const view_mode modes[] = {
      .prepare = prepare_lightmap,
      .bind = bind_lightmap},
     {.fragment = &shader_direct_frag,
-     .uses = LIT | USES_DIRECT,
+     .uses = LIT | USES_DIRECT | USES_NORMALS,
      .method = ALP_RENDER_FIELD,
      .prepare = prepare_direct,
      .bind = bind_lights},
@@ -164,6 +164,7 @@ int view_mode_check(const command_line *a)
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
                    {"--seed", OPTION_SEED, USES_SEED},
                    {"--read", OPTION_READ, USES_FIELD},
+                   {"--normal-maps", OPTION_NORMAL_MAPS, USES_NORMALS},
                    {"--probes", OPTION_PROBES, USES_PROBES},
                    {"--spacing", OPTION_SPACING, USES_PROBES},
                    {"--bounds", OPTION_BOUNDS, USES_PROBES},

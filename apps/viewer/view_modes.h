@@ -30,9 +30,10 @@ typedef enum mode_use {
     USES_SWITCH = 64, // --direct
     USES_FIELD = 128,
     USES_PROBES = 256,
+    USES_NORMALS = 512, // normal maps
     // Not options.
-    USES_PANES = 512,  // light goes through panes
-    USES_DIRECT = 1024 // light comes straight from lamps and suns
+    USES_PANES = 1024, // light goes through panes
+    USES_DIRECT = 2048 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {

@@ -63,6 +63,17 @@ static const option rows[] = {
              "between them.\n"
              "object: once an object, at the middle of its bounds, in twelve directions; nine "
              "spherical harmonics of these give every pixel the light of its normal."},
+    {.id = OPTION_NORMAL_MAPS,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--normal-maps",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "Normal maps of materials, where light comes by direction: direct, the models of "
+             "ambient light, and fields (at vertices: direct light alone). render has none; "
+             "neither has a light map."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

@@ -18,6 +18,7 @@
 #define BUFFER_AMBIENT 10        // an ambient model
 #define BUFFER_FIELD_VERTICES 11 // float [front, back][vertex][3] irradiance
 #define BUFFER_FIELD_OBJECTS 12  // vec4 [surface][9] spherical harmonics of irradiance
+#define BUFFER_TANGENTS 13       // vec4 [vertex]; one element without normal maps
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
 
 // Textures of a material.
@@ -25,7 +26,8 @@
 #define TEXTURE_METALLIC 1
 #define TEXTURE_EMISSION 2
 #define TEXTURE_TRANSMISSION 3
-#define TEXTURE_USES 4
+#define TEXTURE_NORMAL 4
+#define TEXTURE_USES 5
 // Other textures.
 #define TEXTURE_LIGHTMAP 8
 #define TEXTURE_SKY 9
