@@ -27,7 +27,7 @@ static const option rows[] = {
      .name = "--with",
      .value = "MODE",
      .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
-                "environment|probes|ambience|lpv",
+                "environment|probes|ambience|lpv|ao|sh|blend",
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
@@ -39,7 +39,11 @@ static const option rows[] = {
              "light, as of render, with light as of direct (--direct).\n"
              "probes, ambience, lpv: these fields, as of render, with light as of direct (--read, "
              "--direct). Along a flight the volume of ambience flies too, and that of lpv is lit "
-             "again in each picture."},
+             "again in each picture.\n"
+             "ao: a baked map of occlusion, as render --with ao shows one.\n"
+             "sh: a light map by direction, spherical harmonics of two bands, which reads normal "
+             "maps.\n"
+             "blend: as lightmap --atlas blend."},
     {.id = OPTION_DIRECT,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -72,8 +76,8 @@ static const option rows[] = {
      .choices = "off|on",
      .initial = "on",
      .help = "Normal maps of materials, where light comes by direction: direct, the models of "
-             "ambient light, and fields (at vertices: direct light alone). render has none; "
-             "neither has a light map."},
+             "ambient light, sh, and fields (at vertices: direct light alone). render has none; "
+             "neither has lightmap."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

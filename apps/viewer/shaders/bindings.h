@@ -61,6 +61,7 @@
 #define UNIFORM_LIGHTS 18     // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
 #define UNIFORM_SURFACE 20    // uint, of the scene
+#define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 #define UNIFORM_FIELD_READ 21 // int, READ_...
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...

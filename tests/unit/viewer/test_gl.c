@@ -159,7 +159,8 @@ static mode_light light_of(const alp_scene *scene, const alp_render_options *o)
 {
     mode_light light = {0};
     if (o->lightmap != NULL) {
-        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &light.lightmap),
+        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_MAP_LIGHT, ALP_BLEND_NORMAL,
+                                            &light.lightmap),
                          EXIT_DONE);
     }
     if (o->field != NULL) {
