@@ -95,7 +95,7 @@ static void draw(const alp_scene *scene, mode_light light, const view_mode *mode
                                      .normal_maps = maps,
                                      .level_zero = true};
     const alp_camera camera = {
-        .position = {0.2f, 0.1f, z}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov = 0.5f};
+        .position = {0, 0, z}, .target = {0, 0, 0}, .up = {0, 1, 0}, .vertical_fov = 0.5f};
     alp_film_options film = alp_film_options_default();
     alp_image *developed = NULL, *drawn = NULL;
     drawing d;
@@ -154,5 +154,77 @@ TEST_WITH_CONTEXT(normal_maps_turn_the_normals_of_fields, 1)
     check(scene, field, READ_PIXEL);
     check(scene, field, READ_OBJECT);
     alp_field_destroy(field);
+    alp_scene_destroy(scene);
+}
+
+// --- light maps by direction ---------------------------------------------------------------------
+
+/// One channel of a page, bilinear, clamped.
+static double read_page(const float *page, const uint32_t size[2], const double uv[2], int channel)
+{
+    uint32_t low[2], high[2];
+    double share[2], rows[2];
+    for (int k = 0; k < 2; k++) {
+        const double at = fmin(fmax(uv[k] * size[k] - 0.5, 0.0), size[k] - 1.0);
+        low[k] = (uint32_t)at;
+        high[k] = low[k] + 1 < size[k] ? low[k] + 1 : low[k];
+        share[k] = at - low[k];
+    }
+    for (int row = 0; row < 2; row++) {
+        const float *from = page + 4 * (size_t)size[0] * (row == 0 ? low[1] : high[1]) + channel;
+        rows[row] =
+            (1.0 - share[0]) * (double)from[4 * low[0]] + share[0] * (double)from[4 * high[0]];
+    }
+    return (1.0 - share[1]) * rows[0] + share[1] * rows[1];
+}
+
+/// E of the four maps at a normal, h to the right of the middle of the plane and h below it.
+static double expect_sh(const alp_lightmap *lightmap, double h, const float n[3], int channel)
+{
+    const float *uvs = alp_atlas_corner_uvs(alp_lightmap_atlas(lightmap)); // of triangle 0
+    const double s = 0.5 * (1.0 + h), t = 0.5 * (1.0 - h), weights[3] = {1.0 - s, s - t, t};
+    double uv[2] = {0.0, 0.0}, c[4];
+    for (int k = 0; k < 6; k++) {
+        uv[k % 2] += weights[k / 2] * (double)uvs[k];
+    }
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t size[2];
+        const float *page = alp_lightmap_sh_page(lightmap, i, 0, &size[0], &size[1]);
+        c[i] = read_page(page, size, uv, channel);
+    }
+    const double linear = (double)n[1] * c[1] + (double)n[2] * c[2] + (double)n[0] * c[3];
+    return 3.14159265358979 * 0.28209479177 * c[0] + 2.09439510239 * 0.48860251190 * linear;
+}
+
+TEST_WITH_CONTEXT(light_maps_by_direction_are_read_at_mapped_normals, 1)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_scene *scene = load_plane(context);
+    alp_bake_options bake = alp_bake_options_default();
+    alp_lightmap *lightmap = NULL;
+    bake.maps = ALP_MAP_LIGHT | ALP_MAP_SH;
+    bake.atlas.size = 32;
+    bake.atlas.mode = ALP_ATLAS_CHARTS;
+    bake.light.samples = 32;
+    bake.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    bake.light.lighting.sky.down[2] = 0.2f;
+    ASSERT_OK(context, alp_bake(scene, &bake, &lightmap, NULL));
+    for (int i = 0; i < 2; i++) {
+        mode_light light = {0};
+        float rgb[3], normal[3];
+        assert_int_equal(
+            gl_lightmap_create(scene, lightmap, ALP_MAP_SH, ALP_BLEND_NORMAL, &light.lightmap),
+            EXIT_DONE);
+        draw(scene, light, test_gl_mode("sh"), 3.0f, i == 1, rgb);
+        find_normal(1.0f, i == 1, normal);
+        for (int k = 0; k < 3; k++) {
+            const double h = 3.0 * tan(0.25) / SIDE;
+            const double e = 0.5 / 3.14159265358979 * expect_sh(lightmap, h, normal, k);
+            assert_true(fabs((double)rgb[k] - e) <= 1e-4 * e);
+        }
+    }
+    alp_lightmap_destroy(lightmap);
     alp_scene_destroy(scene);
 }
