@@ -69,14 +69,22 @@ int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_op
     return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, d) : code;
 }
 
-/// Draws one layer. @return whether it shows anything
-static bool draw_layer(const drawing *d, const camera_view *view, uint32_t layer)
+static void draw_opaque(const drawing *d, const camera_view *view)
 {
-    if (reads_pixels(d) &&
-        !pass_field_draw(&d->field, &d->light.field, &d->drawn, view, &d->targets, layer)) {
-        return false;
+    if (reads_pixels(d)) {
+        pass_field_draw_opaque(&d->field, &d->light.field, &d->drawn, view, &d->targets);
     }
-    return pass_surfaces_draw(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
+    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, view, &d->targets);
+}
+
+/// Draws one layer. @return whether it shows anything
+static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer)
+{
+    const bool seen =
+        !reads_pixels(d) ||
+        pass_field_draw_panes(&d->field, &d->light.field, &d->drawn, view, &d->targets, layer);
+    return seen &&
+           pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
 }
 
 void drawing_draw(drawing *d, const alp_camera *camera)
@@ -84,14 +92,15 @@ void drawing_draw(drawing *d, const alp_camera *camera)
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const gl_targets *t = &d->targets;
     const camera_view view = camera_view_of(camera, t->width, t->height, &info);
-    const bool panes = d->drawn.has_panes && (d->surfaces.mode->uses & USES_PANES) != 0;
-    const uint32_t limit = panes ? LAYER_LIMIT : 1;
+    const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
     pass_layers_clear(t);
     gl_field_update(&d->light.field, d->scene);
-    while (layer < limit && draw_layer(d, &view, layer)) {
-        pass_layers_add(&d->layers, t, layer++);
+    draw_opaque(d, &view);
+    while (panes && layer < LAYER_LIMIT && draw_panes(d, &view, layer)) {
+        pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
+    pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
     pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
 }
 

@@ -29,7 +29,7 @@ typedef struct drawing_options {
     mode_light light; // of the mode; drawing_create takes it over, also where it fails
     const alp_lighting_options *lighting;
     uint32_t width, height;
-    bool direct; // lamps and suns shine, if the mode adds them to other light
+    bool direct; // lamps and suns shine, in modes that have their light
     bool metals_black;
     bool normal_maps; // those that are loaded are drawn, where light comes by direction
     bool level_zero;  // textures are read bilinearly without mip levels, as by render

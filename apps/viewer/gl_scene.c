@@ -121,11 +121,14 @@ static void list_surfaces(const alp_scene *scene, const alp_scene_info *info, gl
     d->surfaces = allocate_or_exit(NULL, info->surfaces * sizeof *d->surfaces + 1);
     for (uint32_t i = 0; i < info->surfaces; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
-        d->surfaces[i] = (gl_surface){.first = (GLint)(3 * s.first_triangle),
-                                      .corners = (GLsizei)(3 * s.triangle_count),
-                                      .material = s.material_index == ALP_NONE ? info->materials
-                                                                               : s.material_index};
+        const alp_material_info m = alp_scene_get_material(scene, s.material_index);
+        d->surfaces[i] = (gl_surface){
+            .first = (GLint)(3 * s.first_triangle),
+            .corners = (GLsizei)(3 * s.triangle_count),
+            .material = s.material_index == ALP_NONE ? info->materials : s.material_index,
+            .pane = m.alpha_mode == ALP_ALPHA_BLEND || m.transmission > 0.0f};
         memcpy(d->surfaces[i].axes, s.axes, sizeof s.axes);
+        d->has_panes = d->has_panes || d->surfaces[i].pane;
     }
 }
 
@@ -166,7 +169,6 @@ static int load_material(gl_scene *d, const alp_scene *scene, uint32_t index,
                                    (index < d->material_count ? MATERIAL_EXISTS : 0u) |
                                    (mapped ? MATERIAL_NORMAL_MAP : 0u),
                           .normal_scale = m.normal_scale};
-    d->has_panes = d->has_panes || m.alpha_mode == ALP_ALPHA_BLEND || m.transmission > 0.0f;
     memcpy(out->base_color, m.base_color, sizeof out->base_color);
     for (int i = 0; i < TEXTURE_USES; i++) {
         const alp_texture_info *t = uses[i];
@@ -260,12 +262,15 @@ static void draw_surface(const gl_scene *scene, const gl_surface *s)
     glDrawArrays(GL_TRIANGLES, s->first, s->corners);
 }
 
-void gl_scene_draw(const gl_scene *d)
+void gl_scene_draw(const gl_scene *d, gl_scene_part part)
 {
     glUniform1ui(UNIFORM_VERTICES, d->vertex_count);
     glUniform1i(UNIFORM_COLORED, d->colored);
     for (uint32_t i = 0; i < d->surface_count; i++) {
-        draw_surface(d, &d->surfaces[i]);
+        const gl_surface *s = &d->surfaces[i];
+        if (part == GL_SCENE_ALL || s->pane == (part == GL_SCENE_PANES)) {
+            draw_surface(d, s);
+        }
     }
     for (GLuint i = 0; i < TEXTURE_USES; i++) {
         glBindSampler(i, 0);

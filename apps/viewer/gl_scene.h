@@ -16,6 +16,7 @@ typedef struct gl_surface {
     GLint first;      // corner
     GLsizei corners;  // 3 a triangle
     GLuint material;  // in BUFFER_MATERIALS
+    bool pane;        // light goes through its material
     float axes[3][3]; // of its object
 } gl_surface;
 
@@ -54,7 +55,9 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
 void gl_scene_destroy(gl_scene *drawn);
 /// Binds the vertex array and the buffers.
 void gl_scene_bind(const gl_scene *drawn);
-/// Draws all surfaces by the current program, whose vertex shader is surfaces.vert. It is bound.
-void gl_scene_draw(const gl_scene *drawn);
+/// Surfaces of a scene.
+typedef enum gl_scene_part { GL_SCENE_ALL, GL_SCENE_OPAQUE, GL_SCENE_PANES } gl_scene_part;
+/// Draws surfaces by the current program, whose vertex shader is surfaces.vert. It is bound.
+void gl_scene_draw(const gl_scene *drawn, gl_scene_part part);
 
 #endif

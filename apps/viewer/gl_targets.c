@@ -36,6 +36,9 @@ static void make_textures(gl_targets *t)
     t->layer_light = make_target(GL_RGBA32F, t);
     t->layer_through = make_target(GL_RGBA32F, t);
     t->triangles = make_target(GL_R32UI, t);
+    t->opaque_light = make_target(GL_RGBA32F, t);
+    t->opaque_through = make_target(GL_RGBA32F, t);
+    t->opaque_depth = make_target(GL_DEPTH_COMPONENT32F, t);
     t->sum = make_target(GL_RGBA32F, t);
     t->light = make_target(GL_RGBA32F, t);
     t->developed = make_target(GL_RGBA8, t);
@@ -48,15 +51,18 @@ static void make_textures(gl_targets *t)
 /// @return whether all can be drawn into
 static bool make_frames(gl_targets *t)
 {
+    const GLuint opaque[] = {t->opaque_light, t->triangles, t->opaque_through};
     const GLuint layer[] = {t->layer_light, t->triangles, t->layer_through};
+    t->opaque_frame = make_frame(opaque, 3, t->opaque_depth);
     for (int i = 0; i < 2; i++) {
         t->layer_frames[i] = make_frame(layer, 3, t->depths[i]);
         t->sum_frames[i] = make_frame((const GLuint[]){t->sum, t->lefts[i]}, 2, 0);
     }
     t->light_frame = make_frame(&t->light, 1, 0);
     t->developed_frame = make_frame(&t->developed, 1, 0);
-    const GLuint all[] = {t->layer_frames[0], t->layer_frames[1], t->sum_frames[0],
-                          t->sum_frames[1],   t->light_frame,     t->developed_frame};
+    const GLuint all[] = {t->opaque_frame,   t->layer_frames[0], t->layer_frames[1],
+                          t->sum_frames[0],  t->sum_frames[1],   t->light_frame,
+                          t->developed_frame};
     bool complete = true;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
         complete = complete &&
@@ -84,11 +90,13 @@ int gl_targets_create(uint32_t width, uint32_t height, gl_targets *t)
 
 void gl_targets_destroy(gl_targets *t)
 {
-    const GLuint textures[] = {t->layer_light, t->layer_through, t->triangles, t->depths[0],
-                               t->depths[1],   t->sum,           t->lefts[0],  t->lefts[1],
-                               t->light,       t->developed};
-    const GLuint frames[] = {t->layer_frames[0], t->layer_frames[1], t->sum_frames[0],
-                             t->sum_frames[1],   t->light_frame,     t->developed_frame};
+    const GLuint textures[] = {t->layer_light, t->layer_through, t->triangles,    t->depths[0],
+                               t->depths[1],   t->sum,           t->lefts[0],     t->lefts[1],
+                               t->light,       t->developed,     t->opaque_light, t->opaque_through,
+                               t->opaque_depth};
+    const GLuint frames[] = {t->opaque_frame,   t->layer_frames[0], t->layer_frames[1],
+                             t->sum_frames[0],  t->sum_frames[1],   t->light_frame,
+                             t->developed_frame};
     if (t->width > 0) {
         glDeleteTextures(sizeof textures / sizeof *textures, textures);
         glDeleteFramebuffers(sizeof frames / sizeof *frames, frames);

@@ -9,12 +9,15 @@
 
 typedef struct gl_targets {
     uint32_t width, height;
-    // One layer of surfaces: the nearest that lie behind the layer before, whose depth is the other
+    GLuint triangles; // R32UI: the nearest triangle of each pixel, 0xffffffff without one
+    // Opaque surfaces.
+    GLuint opaque_light, opaque_through, opaque_depth; // as of a layer
+    GLuint opaque_frame;
+    // One layer of panes: the nearest that lie behind the layer before, whose depth is the other
     // one of two.
     GLuint layer_light; // RGBA32F: radiance
     GLuint
         layer_through; // RGBA32F: share of light from behind that goes through; 1 without a surface
-    GLuint triangles;  // R32UI: the triangle of each pixel, 0xffffffff without one
     GLuint depths[2];  // 32-bit float: near plane / distance
     GLuint layer_frames[2];
     // The layers so far.

@@ -28,7 +28,8 @@ void pass_layers_clear(const gl_targets *t)
     glClearNamedFramebufferfv(t->sum_frames[0], GL_COLOR, 1, open);
 }
 
-void pass_layers_add(const pass_layers *pass, const gl_targets *t, uint32_t layer)
+void pass_layers_add(const pass_layers *pass, const gl_targets *t, GLuint light, GLuint through,
+                     uint32_t layer)
 {
     const int before = (int)(layer % 2);
     gl_targets_bind(t, t->sum_frames[1 - before]);
@@ -37,8 +38,8 @@ void pass_layers_add(const pass_layers *pass, const gl_targets *t, uint32_t laye
     glBlendFunc(GL_ONE, GL_ONE);
     glUseProgram(pass->program);
     glBindVertexArray(pass->array);
-    glBindTextureUnit(TEXTURE_PICTURE, t->layer_light);
-    glBindTextureUnit(TEXTURE_THROUGH, t->layer_through);
+    glBindTextureUnit(TEXTURE_PICTURE, light);
+    glBindTextureUnit(TEXTURE_THROUGH, through);
     glBindTextureUnit(TEXTURE_LEFT, t->lefts[before]);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisablei(GL_BLEND, 0);

@@ -16,8 +16,10 @@ int pass_layers_create(pass_layers *pass);
 void pass_layers_destroy(pass_layers *pass);
 /// Empties the sum.
 void pass_layers_clear(const gl_targets *targets);
-/// Adds the layer of the targets to the sum.
-/// @param layer its number, from 0; its result of lefts is lefts[1 - layer % 2]
-void pass_layers_add(const pass_layers *pass, const gl_targets *targets, uint32_t layer);
+/// Adds a layer behind the sum.
+/// @param light, through of the layer
+/// @param layer          its number, from 0; its result of lefts is lefts[1 - layer % 2]
+void pass_layers_add(const pass_layers *pass, const gl_targets *targets, GLuint light,
+                     GLuint through, uint32_t layer);
 
 #endif

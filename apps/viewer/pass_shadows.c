@@ -37,6 +37,6 @@ void pass_shadows_draw(const pass_shadows *pass, const gl_scene *scene, const gl
         glClearNamedFramebufferfv(pass->frame, GL_DEPTH, 0, &far);
         glViewport(0, 0, (GLsizei)v->view.width, (GLsizei)v->view.height);
         camera_view_bind(&v->view);
-        gl_scene_draw(scene);
+        gl_scene_draw(scene, GL_SCENE_ALL);
     }
 }

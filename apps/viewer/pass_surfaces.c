@@ -22,14 +22,15 @@ void pass_surfaces_destroy(pass_surfaces *pass)
     *pass = (pass_surfaces){0};
 }
 
-static void clear(GLuint frame, bool first)
+bool pass_surfaces_has_panes(const pass_surfaces *pass, const gl_scene *scene)
+{
+    return scene->has_panes && (pass->mode->uses & USES_PANES) != 0;
+}
+
+static void clear(GLuint frame)
 {
     static const GLfloat black[4], open[4] = {1.0f, 1.0f, 1.0f, 1.0f}, far = 0.0f;
-    static const GLuint none[4] = {UINT32_MAX, 0, 0, 0};
     glClearNamedFramebufferfv(frame, GL_COLOR, 0, black);
-    if (first) {
-        glClearNamedFramebufferuiv(frame, GL_COLOR, 1, none);
-    }
     glClearNamedFramebufferfv(frame, GL_COLOR, 2, open);
     glClearNamedFramebufferfv(frame, GL_DEPTH, 0, &far);
 }
@@ -48,23 +49,45 @@ static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_li
     }
 }
 
-bool pass_surfaces_draw(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
-                        const camera_view *view, const gl_targets *t, uint32_t layer)
+static void set_target(const gl_targets *t, GLuint frame)
 {
-    const bool first = layer == 0;
-    GLuint seen = 0;
-    clear(t->layer_frames[layer % 2], first);
-    gl_targets_bind(t, t->layer_frames[layer % 2]);
+    clear(frame);
+    gl_targets_bind(t, frame);
     // Row 0 is the upper one, as in images. Depth is 1 at the near plane and 0 far away.
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
+}
+
+void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
+                               const mode_light *light, const camera_view *view,
+                               const gl_targets *t)
+{
+    static const GLuint none[4] = {UINT32_MAX, 0, 0, 0};
+    const bool panes = pass_surfaces_has_panes(pass, scene);
+    set_target(t, t->opaque_frame);
+    glClearNamedFramebufferuiv(t->opaque_frame, GL_COLOR, 1, none);
+    bind(pass, scene, light, view);
+    glBindTextureUnit(TEXTURE_DEPTH, scene->white);
+    glBindTextureUnit(TEXTURE_OPAQUE_DEPTH, scene->white);
+    glUniform1i(UNIFORM_PEELED, 0);
+    gl_scene_draw(scene, panes ? GL_SCENE_OPAQUE : GL_SCENE_ALL);
+}
+
+bool pass_surfaces_draw_panes(const pass_surfaces *pass, const gl_scene *scene,
+                              const mode_light *light, const camera_view *view, const gl_targets *t,
+                              uint32_t layer)
+{
+    const bool first = layer == 0;
+    GLuint seen = 0;
+    set_target(t, t->layer_frames[layer % 2]);
     glColorMaski(1, first, first, first, first); // triangles are those of the first layer
     bind(pass, scene, light, view);
     glBindTextureUnit(TEXTURE_DEPTH, first ? scene->white : t->depths[1 - layer % 2]);
-    glUniform1i(UNIFORM_PEELED, !first);
+    glBindTextureUnit(TEXTURE_OPAQUE_DEPTH, t->opaque_depth);
+    glUniform1i(UNIFORM_PEELED, PEEL_BEFORE | (first ? 0 : PEEL_BEHIND));
     glBeginQuery(GL_ANY_SAMPLES_PASSED, pass->query);
-    gl_scene_draw(scene);
+    gl_scene_draw(scene, GL_SCENE_PANES);
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glGetQueryObjectuiv(pass->query, GL_QUERY_RESULT, &seen);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws a layer of surfaces: the nearest, or the nearest behind the layer before.
+// Draws surfaces: the nearest opaque ones, and panes before them layer by layer.
 #ifndef VIEWER_PASS_SURFACES_H
 #define VIEWER_PASS_SURFACES_H
 
@@ -17,10 +17,17 @@ typedef struct pass_surfaces {
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_surfaces_destroy in both cases
 int pass_surfaces_create(const view_mode *mode, bool metals_black, pass_surfaces *pass);
 void pass_surfaces_destroy(pass_surfaces *pass);
-/// Draws into layer_frames[layer % 2].
+/// Whether panes are drawn apart; else surfaces of all kinds are opaque.
+bool pass_surfaces_has_panes(const pass_surfaces *pass, const gl_scene *scene);
+/// Draws the nearest opaque surfaces into opaque_frame.
+void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
+                               const mode_light *light, const camera_view *view,
+                               const gl_targets *targets);
+/// Draws a layer of panes before the opaque surfaces into layer_frames[layer % 2].
 /// @param layer its number, from 0
 /// @return whether it shows anything
-bool pass_surfaces_draw(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
-                        const camera_view *view, const gl_targets *targets, uint32_t layer);
+bool pass_surfaces_draw_panes(const pass_surfaces *pass, const gl_scene *scene,
+                              const mode_light *light, const camera_view *view,
+                              const gl_targets *targets, uint32_t layer);
 
 #endif

@@ -35,6 +35,6 @@ alp_result picture_read_developed(alp_context *context, const gl_targets *t, alp
 
 void picture_read_triangles(const gl_targets *t, uint32_t *triangles)
 {
-    read_target(t->layer_frames[0], GL_COLOR_ATTACHMENT1, t, GL_RED_INTEGER, GL_UNSIGNED_INT,
+    read_target(t->opaque_frame, GL_COLOR_ATTACHMENT1, t, GL_RED_INTEGER, GL_UNSIGNED_INT,
                 triangles);
 }

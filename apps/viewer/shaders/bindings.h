@@ -34,12 +34,13 @@
 #define TEXTURE_PICTURE 10
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
-#define TEXTURE_DEPTH 13
+#define TEXTURE_DEPTH 13        // of the layer before
+#define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
-#define TEXTURE_FIELD 16
-#define TEXTURE_PROBE_LIGHT 17
-#define TEXTURE_PROBE_MOMENTS 18
+#define TEXTURE_FIELD 17
+#define TEXTURE_PROBE_LIGHT 18
+#define TEXTURE_PROBE_MOMENTS 19
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -57,12 +58,12 @@
 #define UNIFORM_AXES 12       // vec3 [3] of the surface's object
 #define UNIFORM_MAP_SETS 15   // uint, coordinate sets of the light map: 1, or 3 that are blended
 #define UNIFORM_MAP_EQUAL 16  // bool, whether sets that count have equal weight
-#define UNIFORM_PEELED 17     // bool, whether only what lies behind TEXTURE_DEPTH is drawn
+#define UNIFORM_PEELED 17     // int, of PEEL_...
 #define UNIFORM_LIGHTS 18     // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
 #define UNIFORM_SURFACE 20    // uint, of the scene
-#define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 #define UNIFORM_FIELD_READ 21 // int, READ_...
+#define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
@@ -80,6 +81,11 @@
 #define LIGHT_POINT 0
 #define LIGHT_SPOT 1
 #define LIGHT_SUN 2
+
+// Fragments that are left out: those that do not lie behind TEXTURE_DEPTH, and those that lie
+// behind TEXTURE_OPAQUE_DEPTH.
+#define PEEL_BEHIND 1
+#define PEEL_BEFORE 2
 
 // Kinds of sky.
 #define SKY_NONE 0

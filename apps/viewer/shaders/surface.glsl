@@ -19,7 +19,8 @@ in vec2 map_uv[3];
 flat in uint triangle_index;
 
 layout(binding = TEXTURE_DEPTH) uniform sampler2D peeled_depth;
-layout(location = UNIFORM_PEELED) uniform bool peeled;
+layout(binding = TEXTURE_OPAQUE_DEPTH) uniform sampler2D opaque_depth;
+layout(location = UNIFORM_PEELED) uniform int peeled;
 
 layout(location = 0) out vec4 picture; // radiance
 layout(location = 1) out uint picture_triangle;
@@ -66,7 +67,7 @@ void add_pane(float a, vec3 color, inout surface s)
     s.kept = a * (1.0 - t);
 }
 
-/// Ends fragments in holes, and those that an earlier layer has drawn.
+/// Ends fragments in holes, and those of other layers.
 /// @param cut_blended whether blended surfaces have holes below alpha 1/2
 void cut(float alpha, bool cut_blended)
 {
@@ -77,7 +78,11 @@ void cut(float alpha, bool cut_blended)
     if (m.alpha_mode != ALPHA_OPAQUE && alpha < cutoff) {
         discard;
     }
-    if (peeled && gl_FragCoord.z >= texelFetch(peeled_depth, ivec2(gl_FragCoord.xy), 0).r) {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    if ((peeled & PEEL_BEHIND) != 0 && gl_FragCoord.z >= texelFetch(peeled_depth, pixel, 0).r) {
+        discard;
+    }
+    if ((peeled & PEEL_BEFORE) != 0 && gl_FragCoord.z < texelFetch(opaque_depth, pixel, 0).r) {
         discard;
     }
 }
