@@ -84,8 +84,10 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--path",
      .value = "FLIGHT.csv",
-     .help = "Flight of the camera, instead of --camera; with --pictures. Lines as of "
-             "ambience --path. - is standard input."},
+     .help =
+         "Flight of the camera, instead of --camera; with --pictures. Lines as of "
+         "ambience --path. - is standard input. With ambience also the flight before a picture, "
+         "which has the view of its end without --camera."},
     {.id = OPTION_FRAMES,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
