@@ -222,7 +222,7 @@ static alp_result make_picture(session *s, const command_line *a, alp_render_opt
     alp_result result = ALP_OK;
     *image = NULL;
     if (o->method == ALP_RENDER_LIGHTMAP) {
-        result = lightmap_bake(s, a, o, &lightmap);
+        result = lightmap_bake(s, a, o, ALP_MAP_LIGHT, lightmap_layout_of(a), &lightmap);
         o->lightmap = lightmap;
     }
     if (result == ALP_OK) {

@@ -5,13 +5,21 @@
 
 #include "session.h"
 
-/// Bakes irradiance alone, as bake --maps light with --samples of --texel-samples.
+/// An atlas, and the weights of its overlapping charts.
+typedef struct lightmap_layout {
+    alp_atlas_mode mode;
+    alp_blend blend;
+} lightmap_layout;
+/// That of --atlas.
+lightmap_layout lightmap_layout_of(const command_line *arguments);
+
+/// Bakes maps alone, as bake --maps with --samples of --texel-samples.
 /// @param options  atlas, occlusion, lighting and bounces of the picture
+/// @param maps     bits of alp_map
 /// @param lightmap out, which the caller destroys; NULL on failure
 /// @return as alp_bake
 alp_result lightmap_bake(session *s, const command_line *arguments,
-                         const alp_render_options *options, alp_lightmap **lightmap);
-/// Weights of overlapping charts, of --atlas.
-alp_blend lightmap_blend(const command_line *arguments);
+                         const alp_render_options *options, unsigned maps, lightmap_layout layout,
+                         alp_lightmap **lightmap);
 
 #endif

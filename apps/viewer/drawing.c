@@ -43,7 +43,8 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     }
     code = code == EXIT_DONE ? pass_layers_create(&d->layers) : code;
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
-    code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
+    code =
+        code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, o->normal_maps, &d->drawn) : code;
     if (code == EXIT_DONE && d->light.scattering > 0.0f) {
         code = pass_air_create(&d->air);
     }

@@ -33,7 +33,8 @@ typedef struct drawing_options {
     uint32_t width, height;
     bool direct; // lamps and suns shine, in modes that have their light
     bool metals_black;
-    bool level_zero; // textures are read bilinearly without mip levels, as by render
+    bool normal_maps; // those that are loaded are drawn, where light comes by direction
+    bool level_zero;  // textures are read bilinearly without mip levels, as by render
 } drawing_options;
 
 /// Makes it in the current context of OpenGL.

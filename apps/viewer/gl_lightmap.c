@@ -7,14 +7,16 @@
 
 #include <stdlib.h>
 
-enum { CORNERS = 3, SETS = 3 };
+enum { CORNERS = 3, SETS = 3, COEFFICIENTS = 4 };
 
-static int load_pages(const alp_lightmap *lightmap, gl_lightmap *d)
+static int load_pages(const alp_lightmap *lightmap, alp_map map, gl_lightmap *d)
 {
     uint32_t width = 0, height = 0;
-    const uint32_t count = alp_lightmap_page_count(lightmap);
+    const uint32_t count =
+        alp_lightmap_page_count(lightmap) * (map == ALP_MAP_SH ? COEFFICIENTS : 1);
+    d->page_count = alp_lightmap_page_count(lightmap);
     GLint layers = 0, side = 0;
-    alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, 0, &width, &height);
+    alp_lightmap_map_page(lightmap, map, 0, &width, &height);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
     if (count > (uint32_t)layers || width > (uint32_t)side || height > (uint32_t)side) {
@@ -28,9 +30,12 @@ static int load_pages(const alp_lightmap *lightmap, gl_lightmap *d)
     glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &d->pages);
     glTextureStorage3D(d->pages, 1, GL_RGBA32F, (GLsizei)width, (GLsizei)height, (GLsizei)count);
     for (uint32_t p = 0; p < count; p++) {
+        const uint32_t page = p % d->page_count, coefficient = p / d->page_count;
+        const float *texels = map == ALP_MAP_SH
+                                  ? alp_lightmap_sh_page(lightmap, coefficient, page, NULL, NULL)
+                                  : alp_lightmap_map_page(lightmap, map, page, NULL, NULL);
         glTextureSubImage3D(d->pages, 0, 0, 0, (GLint)p, (GLsizei)width, (GLsizei)height, 1,
-                            GL_RGBA, GL_FLOAT,
-                            alp_lightmap_map_page(lightmap, ALP_MAP_LIGHT, p, NULL, NULL));
+                            GL_RGBA, GL_FLOAT, texels);
     }
     return EXIT_DONE;
 }
@@ -75,11 +80,11 @@ static void load_triangles(const alp_scene *scene, const alp_atlas *atlas, gl_li
     free(entries);
 }
 
-int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp_blend blend,
-                       gl_lightmap *d)
+int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp_map map,
+                       alp_blend blend, gl_lightmap *d)
 {
     *d = (gl_lightmap){.equal = blend == ALP_BLEND_AVERAGE};
-    const int code = load_pages(lightmap, d);
+    const int code = load_pages(lightmap, map, d);
     if (code == EXIT_DONE) {
         load_triangles(scene, alp_lightmap_atlas(lightmap), d);
     }
@@ -102,5 +107,6 @@ void gl_lightmap_bind(const gl_lightmap *d)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_MAP_UVS, d->uvs);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_MAP_TRIANGLES, d->triangles);
     glUniform1ui(UNIFORM_MAP_SETS, d->sets);
+    glUniform1ui(UNIFORM_MAP_PAGES, d->page_count);
     glUniform1i(UNIFORM_MAP_EQUAL, d->equal);
 }

@@ -15,12 +15,14 @@ typedef struct shader_material {
     float emission[4]; // rgb, alpha cutoff
     float metallic, transmission;
     uint32_t alpha_mode, flags;
-    uint32_t slots[TEXTURE_USES];
+    float normal_scale;
+    uint32_t slots[TEXTURE_USES], unused[2];
     float rows[2 * TEXTURE_USES][4];
 } shader_material;
-_Static_assert(sizeof(shader_material) == (4 + 4 + 2 + 2 + 4 + 32) * 4, "std430 has no holes here");
+_Static_assert(sizeof(shader_material) == (4 + 4 + 2 + 2 + 1 + 5 + 2 + 40) * 4,
+               "std430 has no holes here");
 
-enum { MATERIAL_DOUBLE_SIDED = 1, MATERIAL_EXISTS = 2 };
+enum { MATERIAL_DOUBLE_SIDED = 1, MATERIAL_EXISTS = 2, MATERIAL_NORMAL_MAP = 4 };
 
 // --- geometry ------------------------------------------------------------------------------------
 
@@ -99,6 +101,20 @@ static int load_geometry(gl_scene *d, const alp_geometry *g, uint32_t places[ALP
     return code == EXIT_DONE ? load_triangles(d, g) : code;
 }
 
+static int load_tangents(gl_scene *d, const alp_scene *scene, const alp_geometry *g)
+{
+    const size_t count = d->normal_maps ? g->vertex_count : 0;
+    float(*tangents)[4] = allocate_or_exit(NULL, count * sizeof *tangents + 1);
+    if (count > 0 && alp_scene_make_tangents(scene, tangents) != ALP_OK) {
+        free(tangents);
+        return failure("the scene has no tangents");
+    }
+    glCreateBuffers(1, &d->tangents);
+    const int code = load_buffer(d->tangents, tangents, count * sizeof *tangents);
+    free(tangents);
+    return code;
+}
+
 static void list_surfaces(const alp_scene *scene, const alp_scene_info *info, gl_scene *d)
 {
     d->surface_count = info->surfaces;
@@ -139,7 +155,10 @@ static int load_material(gl_scene *d, const alp_scene *scene, uint32_t index,
         [TEXTURE_BASE_COLOR] = &m.base_color_texture,
         [TEXTURE_METALLIC] = &m.metallic_texture,
         [TEXTURE_EMISSION] = &m.emission_texture,
-        [TEXTURE_TRANSMISSION] = &m.transmission_texture};
+        [TEXTURE_TRANSMISSION] = &m.transmission_texture,
+        [TEXTURE_NORMAL] = &m.normal_texture};
+    const bool mapped = d->normal_maps && m.normal_texture.image != ALP_NONE &&
+                        alp_scene_get_image(scene, m.normal_texture.image) != NULL;
     int code = EXIT_DONE;
     *out =
         (shader_material){.emission = {m.emission[0], m.emission[1], m.emission[2], m.alpha_cutoff},
@@ -147,7 +166,9 @@ static int load_material(gl_scene *d, const alp_scene *scene, uint32_t index,
                           .transmission = m.transmission,
                           .alpha_mode = (uint32_t)m.alpha_mode,
                           .flags = (m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u) |
-                                   (index < d->material_count ? MATERIAL_EXISTS : 0u)};
+                                   (index < d->material_count ? MATERIAL_EXISTS : 0u) |
+                                   (mapped ? MATERIAL_NORMAL_MAP : 0u),
+                          .normal_scale = m.normal_scale};
     memcpy(out->base_color, m.base_color, sizeof out->base_color);
     for (int i = 0; i < TEXTURE_USES; i++) {
         const alp_texture_info *t = uses[i];
@@ -155,7 +176,8 @@ static int load_material(gl_scene *d, const alp_scene *scene, uint32_t index,
         out->slots[i] = t->uv_slot < ALP_UV_SETS ? places[t->uv_slot] : NO_SLOT;
         memcpy(out->rows[2 * i], t->transform[0], sizeof t->transform[0]);
         memcpy(out->rows[2 * i + 1], t->transform[1], sizeof t->transform[1]);
-        d->materials[index].uses[i].texture = texture_of(d, scene, t->image, srgb, &code);
+        d->materials[index].uses[i].texture =
+            i == TEXTURE_NORMAL && !mapped ? d->white : texture_of(d, scene, t->image, srgb, &code);
         d->materials[index].uses[i].sampler = d->samplers[3 * (int)t->wrap_u + (int)t->wrap_v];
     }
     return code;
@@ -184,15 +206,16 @@ static int load_materials(gl_scene *d, const alp_scene *scene, const alp_scene_i
 
 // --- the whole -----------------------------------------------------------------------------------
 
-int gl_scene_create(const alp_scene *scene, bool level_zero, gl_scene *d)
+int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, gl_scene *d)
 {
-    *d = (gl_scene){0};
+    *d = (gl_scene){.normal_maps = normal_maps};
     const alp_geometry geometry = alp_scene_get_geometry(scene);
     const alp_scene_info info = alp_scene_get_info(scene);
     uint32_t places[ALP_UV_SETS];
     gl_samplers_create(level_zero, d->samplers);
     d->white = gl_texture_white();
-    const int code = load_geometry(d, &geometry, places);
+    int code = load_geometry(d, &geometry, places);
+    code = code == EXIT_DONE ? load_tangents(d, scene, &geometry) : code;
     if (code != EXIT_DONE) {
         return code;
     }
@@ -211,6 +234,7 @@ void gl_scene_destroy(gl_scene *d)
     glDeleteTextures(1, &d->white);
     glDeleteSamplers(GL_WRAPS, d->samplers);
     glDeleteBuffers(GL_SCENE_BUFFERS, d->buffers);
+    glDeleteBuffers(1, &d->tangents);
     glDeleteVertexArrays(1, &d->array);
     free(d->textures);
     free(d->materials);
@@ -222,6 +246,7 @@ void gl_scene_bind(const gl_scene *d)
 {
     glBindVertexArray(d->array);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, GL_SCENE_BUFFERS, d->buffers);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_TANGENTS, d->tangents);
 }
 
 static void draw_surface(const gl_scene *scene, const gl_surface *s)

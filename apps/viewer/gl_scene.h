@@ -32,6 +32,8 @@ enum { GL_SCENE_BUFFERS = BUFFER_MATERIALS + 1, GL_WRAPS = 9, GL_ENCODINGS = 2 }
 typedef struct gl_scene {
     GLuint array;                     // an empty vertex array: shaders fetch vertices by number
     GLuint buffers[GL_SCENE_BUFFERS]; // at BUFFER_…
+    GLuint tangents;                  // BUFFER_TANGENTS
+    bool normal_maps;                 // are drawn
     uint32_t vertex_count;
     bool colored;         // vertices have colours
     bool has_panes;       // light goes through some material
@@ -46,9 +48,10 @@ typedef struct gl_scene {
 } gl_scene;
 
 /// Makes it. Surfaces read textures trilinearly with mip levels.
-/// @param level_zero true: bilinearly and without mip levels, as render
+/// @param level_zero  true: bilinearly and without mip levels, as render
+/// @param normal_maps whether those that alp_scene_load_normal_maps has loaded are drawn
 /// @return EXIT_DONE, or EXIT_FAILED after a message; gl_scene_destroy in both cases
-int gl_scene_create(const alp_scene *scene, bool level_zero, gl_scene *drawn);
+int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, gl_scene *drawn);
 void gl_scene_destroy(gl_scene *drawn);
 /// Binds the vertex array and the buffers.
 void gl_scene_bind(const gl_scene *drawn);

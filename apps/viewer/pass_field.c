@@ -6,6 +6,7 @@
 #include "options/options.h"
 #include "shader_list.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,10 @@ int pass_field_create(const gl_targets *t, pass_field *pass)
 {
     const size_t pixels = (size_t)t->width * t->height;
     *pass = (pass_field){0};
+    if (pixels > INT_MAX / sizeof *pass->position_picture) { // OpenGL counts bytes by an int
+        return failure("--resolution: a field is read at 134217727 pixels at most; give fewer, or "
+                       "--read vertex");
+    }
     pass->position_picture = allocate_or_exit(NULL, pixels * sizeof *pass->position_picture);
     pass->normal_picture = allocate_or_exit(NULL, pixels * sizeof *pass->normal_picture);
     pass->positions = allocate_or_exit(NULL, pixels * sizeof *pass->positions);
@@ -58,13 +63,13 @@ static void unpack(const pass_field *pass, uint32_t pixels)
     }
 }
 
-/// Reads the field where two textures say, and fills the field's picture.
-static void read_field(const pass_field *pass, const gl_field *field, const gl_targets *t,
-                       GLuint positions, GLuint normals)
+/// Looks the field up where the points were drawn.
+static void read_points(const pass_field *pass, const gl_field *field, const gl_targets *t,
+                        GLuint places, GLuint normals)
 {
     const uint32_t pixels = t->width * t->height;
     const GLsizei size = (GLsizei)(pixels * sizeof *pass->position_picture);
-    glGetTextureImage(positions, 0, GL_RGBA, GL_FLOAT, size, pass->position_picture);
+    glGetTextureImage(places, 0, GL_RGBA, GL_FLOAT, size, pass->position_picture);
     glGetTextureImage(normals, 0, GL_RGBA, GL_FLOAT, size, pass->normal_picture);
     const uint32_t count = pack(pass, pixels);
     field_points_read(field->field, field->workers, count, (const float(*)[3])pass->positions,
@@ -78,7 +83,7 @@ void pass_field_draw_opaque(const pass_field *pass, const gl_field *field, const
                             const camera_view *view, const gl_targets *t)
 {
     pass_surfaces_draw_opaque(&pass->points, scene, NULL, view, t);
-    read_field(pass, field, t, t->opaque_light, t->opaque_through);
+    read_points(pass, field, t, t->opaque_light, t->opaque_through);
 }
 
 bool pass_field_draw_panes(const pass_field *pass, const gl_field *field, const gl_scene *scene,
@@ -87,6 +92,6 @@ bool pass_field_draw_panes(const pass_field *pass, const gl_field *field, const 
     if (!pass_surfaces_draw_panes(&pass->points, scene, NULL, view, t, layer)) {
         return false;
     }
-    read_field(pass, field, t, t->layer_light, t->layer_through);
+    read_points(pass, field, t, t->layer_light, t->layer_through);
     return true;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a field at the pixels of a layer: draws positions and normals, and looks them up.
+// Reads a field at the pixels of surfaces: draws positions and normals, and looks them up.
 #ifndef VIEWER_PASS_FIELD_H
 #define VIEWER_PASS_FIELD_H
 
@@ -17,8 +17,8 @@ typedef struct pass_field {
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_field_destroy in both cases
 int pass_field_create(const gl_targets *targets, pass_field *pass);
 void pass_field_destroy(pass_field *pass);
-/// Fills the texture of a field that is read at pixels, for the opaque surfaces that pass_surfaces
-/// draws next.
+/// Fills the texture of a field that is read at pixels, for the nearest opaque surfaces. The
+/// targets are those of pass_surfaces, which draws the same next.
 void pass_field_draw_opaque(const pass_field *pass, const gl_field *field, const gl_scene *scene,
                             const camera_view *view, const gl_targets *targets);
 /// The same for a layer of panes. @return whether it shows anything

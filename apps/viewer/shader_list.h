@@ -10,6 +10,7 @@ extern const gl_shader shader_surfaces_vert; // corners of triangles
 extern const gl_shader shader_none_frag, shader_albedo_frag, shader_lightmap_frag; // of modes
 extern const gl_shader shader_direct_frag, shader_ambient_frag;                    // of modes
 extern const gl_shader shader_shadow_frag;                                         // of lights
+extern const gl_shader shader_ao_frag, shader_sh_frag;                             // of maps
 extern const gl_shader shader_points_frag, shader_field_frag;                      // of fields
 extern const gl_shader shader_screen_vert; // the whole picture
 extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_frag;

@@ -7,16 +7,41 @@
 
 #include <stdlib.h>
 
-static int prepare_lightmap(session *s, const command_line *a, alp_render_options *o,
-                            mode_light *light)
+/// @param map of the mode
+static int prepare_map(session *s, const command_line *a, const alp_render_options *o, alp_map map,
+                       lightmap_layout layout, mode_light *light)
 {
     alp_lightmap *lightmap = NULL;
-    const alp_result result = lightmap_bake(s, a, o, &lightmap);
-    const int code = result == ALP_OK ? gl_lightmap_create(s->scene, lightmap, lightmap_blend(a),
+    const unsigned maps = map == ALP_MAP_SH ? ALP_MAP_LIGHT | ALP_MAP_SH : (unsigned)map;
+    const alp_result result = lightmap_bake(s, a, o, maps, layout, &lightmap);
+    const int code = result == ALP_OK ? gl_lightmap_create(s->scene, lightmap, map, layout.blend,
                                                            &light->lightmap)
                                       : session_end(s, result);
     alp_lightmap_destroy(lightmap);
     return code;
+}
+
+static int prepare_lightmap(session *s, const command_line *a, alp_render_options *o,
+                            mode_light *light)
+{
+    return prepare_map(s, a, o, ALP_MAP_LIGHT, lightmap_layout_of(a), light);
+}
+
+static int prepare_blend(session *s, const command_line *a, alp_render_options *o,
+                         mode_light *light)
+{
+    const lightmap_layout layout = {ALP_ATLAS_BLEND, ALP_BLEND_NORMAL};
+    return prepare_map(s, a, o, ALP_MAP_LIGHT, layout, light);
+}
+
+static int prepare_sh(session *s, const command_line *a, alp_render_options *o, mode_light *light)
+{
+    return prepare_map(s, a, o, ALP_MAP_SH, lightmap_layout_of(a), light);
+}
+
+static int prepare_ao(session *s, const command_line *a, alp_render_options *o, mode_light *light)
+{
+    return prepare_map(s, a, o, ALP_MAP_AO, lightmap_layout_of(a), light);
 }
 
 static void bind_lightmap(const mode_light *light, GLuint program)
@@ -67,8 +92,8 @@ static void bind_ambient(const mode_light *light, GLuint program)
 
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
-    MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT
+    MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_TEXELS | USES_SEED,
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS
 };
 
 /// In the order of the choices of --with.
@@ -78,12 +103,12 @@ static const view_mode modes[] = {
      .method = ALP_RENDER_LIGHTMAP},
     {.fragment = &shader_albedo_frag, .uses = USES_METALS, .method = ALP_RENDER_ALBEDO},
     {.fragment = &shader_lightmap_frag,
-     .uses = MAPPED,
+     .uses = MAPPED | USES_LAYOUT,
      .method = ALP_RENDER_LIGHTMAP,
      .prepare = prepare_lightmap,
      .bind = bind_lightmap},
     {.fragment = &shader_direct_frag,
-     .uses = LIT | USES_DIRECT,
+     .uses = LIT | USES_DIRECT | USES_NORMALS,
      .method = ALP_RENDER_FIELD,
      .prepare = prepare_direct,
      .bind = bind_lights},
@@ -137,6 +162,21 @@ static const view_mode modes[] = {
      .prepare = mode_field_prepare,
      .bind = mode_field_bind,
      .move = mode_lpv_move},
+    {.fragment = &shader_ao_frag,
+     .uses = USES_ATLAS | USES_LAYOUT | USES_SEED | USES_OCCLUSION,
+     .method = ALP_RENDER_AO,
+     .prepare = prepare_ao,
+     .bind = bind_lightmap},
+    {.fragment = &shader_sh_frag,
+     .uses = MAPPED | USES_LAYOUT | USES_NORMALS,
+     .method = ALP_RENDER_LIGHTMAP,
+     .prepare = prepare_sh,
+     .bind = bind_lightmap},
+    {.fragment = &shader_lightmap_frag,
+     .uses = MAPPED,
+     .method = ALP_RENDER_LIGHTMAP,
+     .prepare = prepare_blend,
+     .bind = bind_lightmap},
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -161,11 +201,19 @@ int view_mode_check(const command_line *a)
                    {"--bounces", OPTION_BOUNCES, USES_BOUNCES},
                    {"--direct", OPTION_DIRECT, USES_SWITCH},
                    {"--size", OPTION_SIZE, USES_ATLAS},
-                   {"--atlas", OPTION_ATLAS, USES_ATLAS},
+                   {"--atlas", OPTION_ATLAS, USES_LAYOUT},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
-                   {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
+                   {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_TEXELS},
                    {"--seed", OPTION_SEED, USES_SEED},
+                   {"--one-sided", OPTION_ONE_SIDED, USES_ATLAS},
+                   {"--occluders", OPTION_OCCLUDERS, USES_OCCLUSION},
+                   {"--ao-samples", OPTION_AO_SAMPLES, USES_OCCLUSION},
+                   {"--ao-distance", OPTION_AO_DISTANCE, USES_OCCLUSION},
+                   {"--ao-falloff", OPTION_AO_FALLOFF, USES_OCCLUSION},
+                   {"--ao-cone", OPTION_AO_CONE, USES_OCCLUSION},
+                   {"--ao-distribution", OPTION_AO_DISTRIBUTION, USES_OCCLUSION},
                    {"--read", OPTION_READ, USES_FIELD},
+                   {"--normal-maps", OPTION_NORMAL_MAPS, USES_NORMALS},
                    {"--probes", OPTION_PROBES, USES_PROBES},
                    {"--spacing", OPTION_SPACING, USES_PROBES},
                    {"--bounds", OPTION_BOUNDS, USES_PROBES},

@@ -33,9 +33,13 @@ typedef enum mode_use {
     USES_SWITCH = 64, // --direct
     USES_FIELD = 128,
     USES_PROBES = 256,
+    USES_NORMALS = 512, // normal maps
+    USES_LAYOUT = 1024, // --atlas
+    USES_TEXELS = 2048, // rays of texels
+    USES_OCCLUSION = 4096,
     // Not options.
-    USES_PANES = 512,  // light goes through panes
-    USES_DIRECT = 1024 // light comes straight from lamps and suns
+    USES_PANES = 8192,  // light goes through panes
+    USES_DIRECT = 16384 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {

@@ -70,9 +70,10 @@ static int read_light(const command_line *a, view_settings *s)
     *o = alp_render_options_default();
     o->method = s->mode->method;
     o->atlas.size = (uint32_t)a->values[OPTION_SIZE].whole;
-    o->occlusion.seed = a->values[OPTION_SEED].whole;
+    o->occluders = a->values[OPTION_OCCLUDERS].text;
     o->bounces = lighting_bounces(a);
-    return lighting_read(a, &o->lighting, &s->lamps);
+    const int code = occlusion_read(a, &o->occlusion);
+    return code == EXIT_DONE ? lighting_read(a, &o->lighting, &s->lamps) : code;
 }
 
 int view_settings_read(const command_line *a, view_settings *s)

@@ -48,18 +48,21 @@ static int prepare(view_job *job)
     const double start = clock_seconds();
     const bool direct =
         (v->mode->uses & USES_SWITCH) == 0 || job->arguments->values[OPTION_DIRECT].choice == 1;
+    const bool normal_maps = (v->mode->uses & USES_NORMALS) != 0 &&
+                             job->arguments->values[OPTION_NORMAL_MAPS].choice == 1;
     drawing_options options = {.context = s->context,
                                .mode = v->mode,
                                .lighting = &v->render.lighting,
                                .width = v->render.width,
                                .height = v->render.height,
                                .direct = direct,
+                               .normal_maps = normal_maps,
                                .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
     v->render.progress = session_progress;
     v->render.progress_user = s;
     interrupt_defer();
-    int code = EXIT_DONE;
-    if (v->mode->prepare != NULL) {
+    int code = normal_maps ? session_end(s, alp_scene_load_normal_maps(s->scene)) : EXIT_DONE;
+    if (code == EXIT_DONE && v->mode->prepare != NULL) {
         code = v->mode->prepare(s, job->arguments, &v->render, &options.light);
     }
     if (code == EXIT_DONE) {

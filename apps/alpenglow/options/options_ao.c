@@ -4,7 +4,7 @@
 
 static const option rows[] = {
     {.id = OPTION_AO_SAMPLES,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_WHOLE,
      .name = "--ao-samples",
@@ -17,7 +17,7 @@ static const option rows[] = {
              "standard error of a texel is at most 0.5 / sqrt(N), and mostly far less. "
              "Powers of two are best."},
     {.id = OPTION_AO_DISTANCE,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_REAL,
      .name = "--ao-distance",
@@ -31,7 +31,7 @@ static const option rows[] = {
              "auto: 20 % of the diagonal of the scene's bounding box.\n"
              "inf: no limit."},
     {.id = OPTION_AO_FALLOFF,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_CHOICE,
      .name = "--ao-falloff",
@@ -45,7 +45,7 @@ static const option rows[] = {
              "smooth: (1 - t)^2 (1 + 2t)\n"
              "exp: e^-4t, shifted to reach 0 at the limit"},
     {.id = OPTION_AO_CONE,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_REAL,
      .name = "--ao-cone",
@@ -57,7 +57,7 @@ static const option rows[] = {
      .help = "Half-angle of the cone of rays about the normal; 90 is the whole "
              "hemisphere."},
     {.id = OPTION_AO_DISTRIBUTION,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_CHOICE,
      .name = "--ao-distribution",
@@ -77,7 +77,7 @@ static const option rows[] = {
              "% of the diagonal of the object's own box. Not with --occluders or "
              "--atlas vertex."},
     {.id = OPTION_ONE_SIDED,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_AO,
      .kind = KIND_FLAG,
      .name = "--one-sided",

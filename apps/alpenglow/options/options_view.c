@@ -27,7 +27,7 @@ static const option rows[] = {
      .name = "--with",
      .value = "MODE",
      .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
-                "environment|probes|ambience|lpv",
+                "environment|probes|ambience|lpv|ao|sh|blend",
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
@@ -39,7 +39,11 @@ static const option rows[] = {
              "light, as of render, with light as of direct (--direct).\n"
              "probes, ambience, lpv: these fields, as of render, with light as of direct (--read, "
              "--direct). Along a flight the volume of ambience flies too, and that of lpv is lit "
-             "again in each picture."},
+             "again in each picture.\n"
+             "ao: a baked map of occlusion, as render --with ao shows one.\n"
+             "sh: a light map by direction, spherical harmonics of two bands, which reads normal "
+             "maps.\n"
+             "blend: as lightmap --atlas blend."},
     {.id = OPTION_DIRECT,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -63,14 +67,27 @@ static const option rows[] = {
              "between them.\n"
              "object: once an object, at the middle of its bounds, in twelve directions; nine "
              "spherical harmonics of these give every pixel the light of its normal."},
+    {.id = OPTION_NORMAL_MAPS,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--normal-maps",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "on",
+     .help = "Normal maps of materials, where light comes by direction: direct, the models of "
+             "ambient light, sh, and fields (at vertices: direct light alone). render has none; "
+             "neither has lightmap."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--path",
      .value = "FLIGHT.csv",
-     .help = "Flight of the camera, instead of --camera; with --pictures. Lines as of "
-             "ambience --path. - is standard input."},
+     .help =
+         "Flight of the camera, instead of --camera; with --pictures. Lines as of "
+         "ambience --path. - is standard input. With ambience also the flight before a picture, "
+         "which has the view of its end without --camera."},
     {.id = OPTION_FRAMES,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

@@ -148,7 +148,7 @@ static const option rows[] = {
              "surfaces are written unchanged and still occlude. Not with --atlas "
              "vertex."},
     {.id = OPTION_OCCLUDERS,
-     .commands = RAY_COMMANDS,
+     .commands = RAY_COMMANDS | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_TEXT,
      .name = "--occluders",

@@ -18,6 +18,7 @@
 #define BUFFER_AMBIENT 10        // an ambient model
 #define BUFFER_FIELD_VERTICES 11 // float [front, back][vertex][3] irradiance
 #define BUFFER_FIELD_OBJECTS 12  // vec4 [surface][9] spherical harmonics of irradiance
+#define BUFFER_TANGENTS 13       // vec4 [vertex]; one element without normal maps
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
 
 // Textures of a material.
@@ -25,7 +26,8 @@
 #define TEXTURE_METALLIC 1
 #define TEXTURE_EMISSION 2
 #define TEXTURE_TRANSMISSION 3
-#define TEXTURE_USES 4
+#define TEXTURE_NORMAL 4
+#define TEXTURE_USES 5
 // Other textures.
 #define TEXTURE_LIGHTMAP 8
 #define TEXTURE_SKY 9
@@ -33,12 +35,12 @@
 #define TEXTURE_THROUGH 11
 #define TEXTURE_LEFT 12
 #define TEXTURE_DEPTH 13        // of the layer before
-#define TEXTURE_OPAQUE_DEPTH 19 // of opaque surfaces
+#define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
-#define TEXTURE_FIELD 16
-#define TEXTURE_PROBE_LIGHT 17
-#define TEXTURE_PROBE_MOMENTS 18
+#define TEXTURE_FIELD 17
+#define TEXTURE_PROBE_LIGHT 18
+#define TEXTURE_PROBE_MOMENTS 19
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -61,6 +63,7 @@
 #define UNIFORM_AMBIENT 19    // int, an alp_ambient_model
 #define UNIFORM_SURFACE 20    // uint, of the scene
 #define UNIFORM_FIELD_READ 21 // int, READ_...
+#define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 // Of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu

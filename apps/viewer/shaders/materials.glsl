@@ -8,8 +8,10 @@ struct material {
     vec4 emission;     // rgb; a: alpha cutoff
     float metallic, transmission;
     uint alpha_mode;
-    uint flags;        // 1: double-sided, 2: is a material
-    uvec4 slots;       // of TEXTURE_...: slot in use, or NO_SLOT
+    uint flags;        // 1: double-sided, 2: is a material, 4: has a normal map
+    float normal_scale;
+    uint slots[TEXTURE_USES]; // of TEXTURE_...: slot in use, or NO_SLOT
+    uint unused[2];
     vec4 rows[2 * TEXTURE_USES]; // of TEXTURE_...: u' = dot(row.xyz, (u, v, 1)), then v'
 };
 

@@ -4,7 +4,7 @@
 struct place {
     vec3 position;  // metres
     vec3 geometric; // unit normal of the triangle, on the side of the camera
-    vec3 normal;    // unit normal that shades, on the same side
+    vec3 normal;    // unit normal that shades, on the same side but for normal maps
 };
 
 /// The way of the camera's ray through this pixel; not unit.

@@ -11,6 +11,23 @@ vec3 corner(uint k)
     return vec3(positions[at], positions[at + 1u], positions[at + 2u]);
 }
 
+/// Turns a shading normal by the normal map, as alp_material_info states it.
+vec3 map_normal(vec3 n)
+{
+    material m = materials[material_index];
+    vec3 t = vertex_tangent.xyz - dot(vertex_tangent.xyz, n) * n;
+    float size = dot(t, t);
+    if ((m.flags & 4u) == 0u || size <= 1e-12) {
+        return n;
+    }
+    t *= inversesqrt(size);
+    vec3 b = (vertex_tangent.w < 0.0 ? -1.0 : 1.0) * cross(n, t);
+    vec3 c = 2.0 * texture(normal_texture, texture_uv[TEXTURE_NORMAL]).rgb - 1.0;
+    vec3 mapped = m.normal_scale * (c.r * t + c.g * b) + c.b * n;
+    float square = dot(mapped, mapped);
+    return square > 1e-12 ? mapped * inversesqrt(square) : n;
+}
+
 /// A shading normal that points below the triangle is replaced by the triangle's.
 place find_place()
 {
@@ -24,6 +41,7 @@ place find_place()
     if (dot(p.normal, p.geometric) <= 0.0) {
         p.normal = p.geometric;
     }
+    p.normal = map_normal(p.normal);
     if (dot(ray, p.geometric) > 0.0) {
         p.geometric = -p.geometric;
         p.normal = -p.normal;

@@ -6,10 +6,12 @@ layout(binding = TEXTURE_BASE_COLOR) uniform sampler2D base_color_texture;
 layout(binding = TEXTURE_METALLIC) uniform sampler2D metallic_texture;
 layout(binding = TEXTURE_EMISSION) uniform sampler2D emission_texture;
 layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmission_texture;
+layout(binding = TEXTURE_NORMAL) uniform sampler2D normal_texture;
 
 layout(location = UNIFORM_METALS) uniform bool metals_black;
 
 in vec3 vertex_normal;
+in vec4 vertex_tangent; // w: sign of the bitangent
 in vec3 vertex_blend;
 in vec4 vertex_color;
 in vec2 texture_uv[TEXTURE_USES];

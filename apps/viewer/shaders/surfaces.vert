@@ -10,6 +10,8 @@ layout(std430, binding = BUFFER_UVS) readonly buffer uv_list { vec2 uvs[]; };
 layout(std430, binding = BUFFER_TRIANGLES) readonly buffer triangle_list { uint triangles[]; };
 layout(std430, binding = BUFFER_MAP_UVS) readonly buffer map_uv_list { vec2 map_uvs[]; };
 
+layout(std430, binding = BUFFER_TANGENTS) readonly buffer tangent_list { vec4 tangents[]; };
+
 layout(location = UNIFORM_VERTICES) uniform uint vertex_count;
 layout(location = UNIFORM_COLORED) uniform bool colored;
 layout(location = UNIFORM_AXES) uniform vec3 axes[3];
@@ -23,6 +25,7 @@ layout(location = UNIFORM_FIELD_READ) uniform int field_read;
 
 out vec3 vertex_irradiance[2]; // of fronts and backs
 out vec3 vertex_normal;
+out vec4 vertex_tangent;
 out vec3 vertex_blend; // the normal in the frame of the object
 out vec4 vertex_color;
 out vec2 texture_uv[TEXTURE_USES];
@@ -65,6 +68,7 @@ void main()
     gl_Position = camera_parallel ? vec4(at, 1.0 - depth * camera_near, 1.0)
                                   : vec4(at, camera_near, depth);
     vertex_normal = three(vertex, true);
+    vertex_tangent = vertex < uint(tangents.length()) ? tangents[vertex] : vec4(0.0);
     vertex_blend = normalize(vec3(dot(vertex_normal, axes[0]), dot(vertex_normal, axes[1]),
                                   dot(vertex_normal, axes[2])));
     for (uint side = 0u; side < 2u; side++) {

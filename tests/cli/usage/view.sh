@@ -30,5 +30,17 @@ for option in "--direct off" "--bounces 1" "--seed 1" "--size 64"; do
     try $view --with direct $option
 done
 try $view --with lightmap --direct off
+for option in "--read vertex" "--normal-maps on" "--ao-samples 4" "--probes a.probes.json" "--time 1"; do
+    try $view --with lightmap $option
+done
+for option in "--spacing 1" "--grid 8" "--path flight.csv"; do
+    try $view --with hemisphere $option
+done
+try $view --with blend --atlas charts
+try $view --with ao --texel-samples 4
+try $view --with ambience
+try $view --with ambience --path flight.csv --bounces 1
+try $flight --with ambience --time 1
+try $view --with lpv --bounces 2
 try $view --with hemisphere --size 64
 try $view --with lightmap --samples 4

@@ -142,8 +142,7 @@ static const view_mode *mode_of(const alp_render_options *o)
     return view_mode_of(&line);
 }
 
-/// The mode of a name.
-static const view_mode *find_mode(const char *name)
+const view_mode *test_gl_mode(const char *name)
 {
     command_line line = {.command = COMMAND_VIEW};
     const char *at = option_find(COMMAND_VIEW, "--with", 6)->choices;
@@ -160,7 +159,8 @@ static mode_light light_of(const alp_scene *scene, const alp_render_options *o)
 {
     mode_light light = {0};
     if (o->lightmap != NULL) {
-        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_BLEND_NORMAL, &light.lightmap),
+        assert_int_equal(gl_lightmap_create(scene, o->lightmap, ALP_MAP_LIGHT, ALP_BLEND_NORMAL,
+                                            &light.lightmap),
                          EXIT_DONE);
     }
     if (o->field != NULL) {
@@ -226,7 +226,8 @@ test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options
 test_pair test_gl_pair_in(const char *mode, mode_light light, const alp_scene *scene,
                           const alp_render_options *options)
 {
-    return make_pair(&(drawing_options){.mode = find_mode(mode), .light = light}, scene, options);
+    return make_pair(&(drawing_options){.mode = test_gl_mode(mode), .light = light}, scene,
+                     options);
 }
 
 void test_pair_destroy(test_pair *pair)

@@ -30,6 +30,8 @@ typedef struct test_pair {
 /// @param options method ALBEDO, LIGHTMAP, whose lightmap is baked already, or FIELD; the viewer's
 ///        mode is that of the method. That of fields which are no ambient model is direct.
 test_pair test_gl_pair(const alp_scene *scene, const alp_render_options *options);
+/// The mode of a name of --with.
+const view_mode *test_gl_mode(const char *name);
 /// The same in a mode of --with.
 /// @param light of the mode; it is destroyed
 test_pair test_gl_pair_in(const char *mode, mode_light light, const alp_scene *scene,

@@ -326,7 +326,7 @@ static void compare_frames(const char *name, const alp_lighting_options *lightin
     int code = EXIT_DONE;
     ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
     ASSERT_OK(context, alp_lpv_light_scene(lpv, scene, &frame, &report));
-    assert_int_equal(gl_scene_create(scene, true, &drawn), EXIT_DONE);
+    assert_int_equal(gl_scene_create(scene, true, false, &drawn), EXIT_DONE);
     assert_int_equal(gl_lights_create(scene, lighting, &lights), EXIT_DONE);
     ASSERT_OK(context, lpv_frame_create(scene, &o, &frame, &code, &f));
     assert_int_equal(code, EXIT_DONE);

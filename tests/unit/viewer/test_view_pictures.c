@@ -72,6 +72,33 @@ TEST_SLOW_WITH_CONTEXT(light_maps_of_a_hall_are_those_of_render, 2)
     check_lightmap(context, "builtin:atrium,triangles=20000", ALP_ATLAS_CHARTS);
 }
 
+TEST_WITH_CONTEXT(maps_of_occlusion_are_those_of_render, 2)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
+    alp_bake_options bake = alp_bake_options_default();
+    alp_render_options o = small_picture(ALP_RENDER_AO);
+    alp_lightmap *lightmap = NULL;
+    mode_light light = {0};
+    bake.maps = ALP_MAP_AO;
+    bake.atlas.size = 128;
+    bake.atlas.mode = ALP_ATLAS_CHARTS;
+    bake.occlusion.samples = 16;
+    ASSERT_OK(context, alp_bake(scene, &bake, &lightmap, NULL));
+    o.lightmap = lightmap;
+    assert_int_equal(
+        gl_lightmap_create(scene, lightmap, ALP_MAP_AO, ALP_BLEND_NORMAL, &light.lightmap),
+        EXIT_DONE);
+    test_pair pair = test_gl_pair_in("ao", light, scene, &o);
+    assert_true(pair.alike_share >= ALIKE);
+    assert_true(test_pair_equal_share(&pair) >= EQUAL);
+    test_pair_destroy(&pair);
+    alp_lightmap_destroy(lightmap);
+    alp_scene_destroy(scene);
+}
+
 TEST_WITH_CONTEXT(albedos_are_those_of_render, 2)
 {
     if (!test_gl_open()) {
