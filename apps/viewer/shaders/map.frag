@@ -6,10 +6,10 @@
 
 layout(location = UNIFORM_MAP_LIGHT) uniform uint map_light; // MAP_NO_LIGHT: no flux
 
-layout(location = 3) out vec4 map_position; // metres; 0: the radius of the object is not known
-layout(location = 4) out vec4 map_normal;   // unit; area in square metres
-layout(location = 5) out vec4 map_flux;     // W
-layout(location = 6) out vec4 map_albedo;
+layout(location = 3) out vec4 surfel_position; // metres; 0: the radius of the object is not known
+layout(location = 4) out vec4 surfel_normal;   // unit; area in square metres
+layout(location = 5) out vec4 surfel_flux;     // W
+layout(location = 6) out vec4 surfel_albedo;
 
 /// Area across the way that a texel sees at a distance along its ray.
 float area_of(vec3 ray, float distance)
@@ -31,8 +31,8 @@ void main()
     vec3 arriving = map_light == MAP_NO_LIGHT ? vec3(0.0)
                                               : light_at(lights[map_light], p.position, toward);
     vec3 albedo = s.dark ? vec3(0.0) : s.albedo;
-    map_position = vec4(p.position, 0.0);
-    map_normal = vec4(p.normal, across / cosine);
-    map_flux = vec4(across * albedo * arriving, 0.0);
-    map_albedo = vec4(albedo, 0.0);
+    surfel_position = vec4(p.position, 0.0);
+    surfel_normal = vec4(p.normal, across / cosine);
+    surfel_flux = vec4(across * albedo * arriving, 0.0);
+    surfel_albedo = vec4(albedo, 0.0);
 }
