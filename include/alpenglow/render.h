@@ -112,8 +112,8 @@ typedef struct alp_render_options {
     const alp_lpv *lpv; ///< FIELD: the volume of `gloss` and `scattering`; NULL (default) without
     /// FIELD: surfaces mirror the light of `lpv`; default false. v points to the camera, r is v
     /// mirrored at the normal n, Lmirrored is alp_lpv_radiance along r, Schlick's F has F0 = .04,
-    /// or the base colour of a metal:
-    ///     L = Le + (1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
+    /// the base colour of a metal, or a mixture by its metallic m. Metals reflect no diffuse light:
+    ///     L = Le + (1 − m)(1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
     bool gloss;
     /// FIELD: coefficient S [m⁻¹] ≥ 0 of a medium in the bounds of the scene, which scatters light
     /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`
