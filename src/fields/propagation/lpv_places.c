@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -15,14 +16,17 @@ enum { GRAIN = 4096 };
 static const double ABOVE = 0.5, BEYOND = 0.001;
 /// Share of half a grid in which light fades that is injected: all of it where the grid moves on.
 static const double BORDER = 0.15;
+/// Largest area of a surfel in faces of a cell, and flux in W and in W for each m² of a face: sums
+/// of 2^32 surfels over all steps stay finite.
+static const float FACES_MOST = 1e20f, RADIANCE_MOST = 1e20f;
 
 // --- what is usable ------------------------------------------------------------------------------
 
-static bool is_good(const float v[3], float least)
+static bool is_good(const float v[3], float least, float most)
 {
     bool good = true;
     for (int k = 0; k < 3; k++) {
-        good = good && isfinite(v[k]) && v[k] >= least;
+        good = good && isfinite(v[k]) && v[k] >= least && v[k] <= most;
     }
     return good;
 }
@@ -30,14 +34,15 @@ static bool is_good(const float v[3], float least)
 static bool is_usable(const alpi_lpv_injection *in, uint32_t i)
 {
     const alp_lpv_surfels *s = in->surfels;
-    const float *n = s->normals[i], anything = -HUGE_VALF;
+    const float *n = s->normals[i];
     const float squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    bool good = is_good(s->positions[i], anything) && squares > 0.98f && squares < 1.02f;
+    const float cell = (float)in->lpv->options.cell, face = cell * cell;
+    bool good = is_good(s->positions[i], -FLT_MAX, FLT_MAX) && squares > 0.98f && squares < 1.02f;
     if (in->blockers) {
-        good = good && isfinite(s->areas[i]) && s->areas[i] >= 0.0f;
-        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f));
+        good = good && s->areas[i] >= 0.0f && s->areas[i] <= FACES_MOST * face;
+        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f, 1.0f));
     } else {
-        good = good && is_good(s->flux[i], 0.0f);
+        good = good && is_good(s->flux[i], 0.0f, RADIANCE_MOST * fminf(face, 1.0f));
     }
     return good && (s->radii == NULL || isfinite(s->radii[i]));
 }

@@ -2,37 +2,24 @@
 // Grids inside grids: which map lights which, no seams in space, and no jumps in time while the
 // camera moves.
 #include "field_scenes.h"
+#include "lpv_volumes.h"
 
 #include "base/random.h"
-#include "fields/propagation/lpv.h"
 
 TEST_CONTEXT(2);
 
 static alp_lpv *open_volume(uint32_t side, double cell, uint32_t cascades, bool blockers)
 {
-    alp_lpv_options o = alp_lpv_options_default();
-    o.size[0] = o.size[1] = o.size[2] = side;
-    o.cell = cell;
+    alp_lpv_options o = lpv_cube(side, cell);
     o.cascades = cascades;
     o.iterations = 8;
     o.blockers = blockers;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, o);
 }
 
 static double flux_in(const alp_lpv *lpv, uint32_t cascade)
 {
-    const alpi_lpv_grid *g = &lpv->grids[cascade];
-    const size_t n = g->size[0], rows = (size_t)g->size[1] * g->size[2];
-    double sum = 0.0;
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t x = 0; x < n; x++) {
-            sum += (double)g->injected[r * ALPI_LPV_ROWS * n + x];
-        }
-    }
-    return 4.0 * FIELD_PI * sum;
+    return lpv_flux(&lpv->grids[cascade], lpv->grids[cascade].injected);
 }
 
 // --- a floor under a sun -------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // Light propagation against its slow twin, and the laws that it keeps: energy, symmetry, scaling,
 // moves of the grid, and its known reach.
 #include "lpv_twin.h"
+#include "lpv_volumes.h"
 
 #include "base/random.h"
 
@@ -17,20 +18,12 @@ static alp_lpv *make(const uint32_t size[3], alp_lpv_mode mode, bool blockers, u
     o.mode = mode;
     o.blockers = blockers;
     o.iterations = iterations;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, o);
 }
 
-/// One light of unit flux in cell 0, 0, 0 of the lattice, along an axis.
 static void add_one(alp_lpv *lpv, const float position[3], const float normal[3], float flux)
 {
-    const float fluxes[1][3] = {{flux, flux, flux}};
-    const float p[1][3] = {{position[0], position[1], position[2]}};
-    const float n[1][3] = {{normal[0], normal[1], normal[2]}};
-    const alp_lpv_surfels s = {.count = 1, .positions = p, .normals = n, .flux = fluxes};
-    ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
+    lpv_add_one(context, lpv, position, normal, flux);
 }
 
 static float random_unit(uint32_t *state)
@@ -67,19 +60,6 @@ static void add_random(alp_lpv *lpv, uint32_t count, bool blockers)
             ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
         }
     }
-}
-
-static double flux_of(const alp_lpv *lpv, const float *light)
-{
-    const alpi_lpv_grid *g = &lpv->grids[0];
-    const size_t n = g->size[0], rows = (size_t)g->size[1] * g->size[2] * 3;
-    double sum = 0.0;
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t x = 0; x < n; x++) {
-            sum += (double)light[r * 4 * n + x];
-        }
-    }
-    return 4.0 * PI * sum;
 }
 
 /// Sum of intensities of one channel in a cell, by lattice index.
@@ -152,14 +132,11 @@ TEST(steps_keep_energy)
         alp_lpv *lpv = make(size, (alp_lpv_mode)mode, false, STEPS);
         lpv->wraps = true;
         add_random(lpv, 30, false);
-        const double before = flux_of(lpv, lpv->grids[0].injected);
+        const double before = lpv_flux(&lpv->grids[0], lpv->grids[0].injected);
         ASSERT_OK(context, alp_lpv_propagate(lpv));
-        const double after = flux_of(lpv, lpv->grids[0].light);
-        // `light` is scaled for the next step, which keeps p0 where nothing is clamped; the sum
-        // holds each of 65 states whole.
-        const double all = flux_of(lpv, lpv->grids[0].sum);
+        // The sum holds each of 65 states whole.
+        const double all = lpv_flux(&lpv->grids[0], lpv->grids[0].sum);
         ASSERT_NEAR(all / (before * (STEPS + 1)), 1.0, 1e-7 * STEPS / 2);
-        assert_true(after > 0.0);
         alp_lpv_destroy(lpv);
     }
     for (int mode = 0; mode < 2; mode++) {
