@@ -13,10 +13,14 @@
 //     alp_lpv_propagate(lpv);
 //     alp_field_irradiance(field, count, positions, normals, irradiance);
 //
-// Or alp_lpv_light_scene does all five with rays through a scene.
+// Or alp_lpv_light_scene does begin, add_light, add_blockers and propagate, with rays through a
+// scene.
 // One thread calls what changes a volume. Between changes any number of threads may read it.
 // Based on: A. Kaplanyan, C. Dachsbacher. Cascaded Light Propagation Volumes for Real-Time Indirect
 //           Illumination. I3D 2010.
+// Departures in all modes: a step keeps all light, and surfaces are read half a cell above, beyond
+// cells that lie half in a wall. ACCURATE does not damp light, which blackens walls near lit
+// floors.
 #ifndef ALPENGLOW_LPV_H
 #define ALPENGLOW_LPV_H
 
@@ -62,7 +66,8 @@ typedef struct alp_lpv_options {
 ALP_API alp_lpv_options alp_lpv_options_default(void);
 
 /// Bytes that a volume of these options holds: about 200 a cell. With blockers 140 more for each
-/// corner of cells.
+/// corner of cells. Beside them the volume keeps 32 bytes for each surfel of its largest call, and
+/// alp_lpv_light_scene takes 56 bytes for each texel of a map, or point, while it adds them.
 ALP_API uint64_t alp_lpv_memory(const alp_lpv_options *options);
 
 /// @param options NULL = defaults
@@ -77,6 +82,14 @@ ALP_API void alp_lpv_destroy(alp_lpv *lpv);
 /// @param scene   @param grid cells along each side   @param cascades [1, 8]
 ALP_API alp_lpv_options alp_lpv_options_for_scene(const alp_scene *scene, uint32_t grid,
                                                   uint32_t cascades);
+
+/// Options whose grids hold a scene from where a viewer is: with alp_lpv_follow to the same place
+/// the coarsest reaches a cell beyond its bounds.
+/// @param eye     metres; `centre` is the nearest place in the bounds, to be followed
+/// @param forward any length; 0: the grids lie round the eye
+ALP_API alp_lpv_options alp_lpv_options_for_view(const alp_scene *scene, uint32_t grid,
+                                                 uint32_t cascades, const double eye[3],
+                                                 const double forward[3]);
 
 /// Moves the grids, by whole cells, so that the eye looks into the larger part of each.
 /// @param eye metres   @param forward any length; 0: the grids are centred at the eye
@@ -163,7 +176,9 @@ ALP_API alp_lpv_scene_options alp_lpv_scene_options_default(void);
 typedef struct alp_lpv_report {
     size_t struct_size;
     double trace, inject, block, propagate; ///< seconds of each stage
-    uint64_t rays, lights;                  ///< rays of the maps; virtual point lights
+    uint64_t rays;                          ///< of the maps
+    uint64_t lit;                           ///< texels and points that send light
+    uint64_t lights;                        ///< those that a grid holds: virtual point lights
     double flux[3];                         ///< W injected into the coarsest grid
 } alp_lpv_report;
 

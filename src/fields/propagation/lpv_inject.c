@@ -126,6 +126,7 @@ static alp_result inject(alpi_lpv_injection *in, uint32_t first, uint32_t end)
         ALP_TRY(alpi_lpv_find_places(in, c));
         ALP_TRY(alpi_parallel_for(in->lpv->context, in->ends[2], 1, add_layers, in, NULL));
     }
+    alpi_lpv_count_lights(in);
     return ALP_OK;
 }
 
@@ -237,7 +238,7 @@ static void move_nodes(alpi_lpv_grid *g)
 
 static void begin(alp_lpv *lpv, bool keep)
 {
-    lpv->skipped = 0;
+    lpv->skipped = lpv->lit = lpv->lights = 0;
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         alpi_lpv_grid *g = &lpv->grids[c];
         memset(g->injected, 0, ALPI_LPV_ROWS * alpi_lpv_cells(g->size) * sizeof *g->injected);

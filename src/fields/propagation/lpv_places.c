@@ -47,6 +47,13 @@ static bool is_usable(const alpi_lpv_injection *in, uint32_t i)
     return good && (s->radii == NULL || isfinite(s->radii[i]));
 }
 
+/// Whether a surfel, which is usable, sends light.
+static bool has_flux(const alpi_lpv_injection *in, uint32_t i)
+{
+    const float *f = in->blockers ? NULL : in->surfels->flux[i];
+    return f != NULL && (f[0] > 0.0f || f[1] > 0.0f || f[2] > 0.0f);
+}
+
 // --- places --------------------------------------------------------------------------------------
 
 /// Share that the coarsest of several grids takes: its last cell fades, or light would jump where
@@ -135,6 +142,7 @@ static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t
     for (uint32_t i = begin; i < end; i++) {
         alpi_lpv_place *place = &in->lpv->places[i];
         place->held = place->usable && find_place(in, i, place);
+        place->lights |= place->held && has_flux(in, i);
     }
     return ALP_OK;
 }
@@ -188,8 +196,16 @@ alp_result alpi_lpv_begin_places(alpi_lpv_injection *in)
     ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_usable, in, NULL));
     for (uint32_t i = 0; i < count; i++) {
         lpv->skipped += !lpv->places[i].usable;
+        lpv->lit += lpv->places[i].usable && has_flux(in, i);
     }
     return ALP_OK;
+}
+
+void alpi_lpv_count_lights(const alpi_lpv_injection *in)
+{
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        in->lpv->lights += in->lpv->places[i].lights;
+    }
 }
 
 alp_result alpi_lpv_find_places(alpi_lpv_injection *in, uint32_t index)

@@ -41,7 +41,6 @@ static alp_result add_map(frame *f, uint32_t cascade, const alpi_surfels *surfel
     }
     f->report.inject += injected - start;
     f->report.block += alpi_seconds() - injected;
-    f->report.lights += s.count;
     return ALP_OK;
 }
 
@@ -193,6 +192,8 @@ static alp_result run_frame(frame *f, float **radii)
     const double start = alpi_seconds();
     ALP_TRY(alp_lpv_propagate(f->lpv));
     f->report.propagate = alpi_seconds() - start;
+    f->report.lit = f->lpv->lit;
+    f->report.lights = f->lpv->lights;
     add_up_flux(f->lpv, f->report.flux);
     return ALP_OK;
 }

@@ -137,12 +137,14 @@ static double leak(alp_lpv_mode mode, float at, float thick, double angle, uint3
     return behind / before;
 }
 
-/// At most 5 %. Nodes of walls at an angle cover faces in part, and walls at 45 degrees let most
-/// through.
+/// At most 5 % in the default mode. Nodes of walls at an angle cover faces in part, and walls at 45
+/// degrees let most through. Two bands of conformance let up to 8 % through.
 TEST(a_wall_of_one_cell_keeps_light_out)
 {
     static const double angles[5] = {0.0, 0.2, 0.4, 0.5, FIELD_PI / 4.0};
-    static const double most[5] = {.001, .01, .015, .02, .035};
+    static const double most[ALP_LPV_MODE_COUNT][5] = {
+        {.001, .01, .015, .02, .035}, {.03, .04, .05, .056, .078}, {.033, .042, .051, .058, .079}};
+    bool good = true;
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
         for (int a = 0; a < 5; a++) {
             double worst = 0.0;
@@ -153,11 +155,10 @@ TEST(a_wall_of_one_cell_keeps_light_out)
             }
             print_message("%s: a wall of one cell at %.2f rad lets %.2f %% through\n",
                           mode_names[mode], angles[a], 100.0 * worst);
-            if (mode == ALP_LPV_ACCURATE) {
-                assert_true(worst <= most[a]);
-            }
+            good = good && worst <= most[mode][a];
         }
     }
+    assert_true(good);
 }
 
 /// Flux beyond a wall after the second step, which is the first that blockers stop: of a light just

@@ -177,6 +177,38 @@ TEST(a_single_grid_takes_all_light)
     alp_lpv_destroy(lpv);
 }
 
+/// Options for a view: the coarsest grid holds the scene from any place inside, and no more than it
+/// needs. A viewer outside counts as at the nearest place inside.
+TEST(grids_of_a_view_hold_the_scene)
+{
+    static const double eyes[4][3] = {
+        {0.3, 0.3, 0.3}, {0.0, 0.0, 0.0}, {0.5, 0.1, 0.4}, {9.0, -9.0, 0.2}};
+    static const double ways[4][3] = {
+        {0.0, 0.0, 0.0}, {0.0, 0.0, -7.0}, {1.0, 1.0, 1.0}, {-0.2, 0.5, 0.1}};
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    const alp_scene_info info = alp_scene_get_info(scene);
+    for (int i = 0; i < 48; i++) {
+        const uint32_t cascades = 1 + (uint32_t)i / 16;
+        const double *way = ways[i % 4];
+        const alp_lpv_options o =
+            alp_lpv_options_for_view(scene, 20, cascades, eyes[i / 4 % 4], way);
+        alp_lpv *lpv = lpv_open(context, o);
+        double least = 1e30; // cells between the bounds and the grid's
+        ASSERT_OK(context, alp_lpv_follow(lpv, o.centre, way));
+        const alpi_lpv_grid *g = &lpv->grids[cascades - 1];
+        for (int k = 0; k < 3; k++) {
+            assert_true(o.centre[k] >= (double)info.bounds_min[k] &&
+                        o.centre[k] <= (double)info.bounds_max[k]);
+            const double low = (double)info.bounds_min[k] / g->cell - (double)g->corner[k];
+            const double high = (double)info.bounds_max[k] / g->cell - (double)g->corner[k];
+            least = fmin(least, fmin(low, 20.0 - high));
+        }
+        assert_true(least >= 1.0 - 1e-6 && least <= 2.0 + 1e-6);
+        alp_lpv_destroy(lpv);
+    }
+    alp_scene_destroy(scene);
+}
+
 // --- space ---------------------------------------------------------------------------------------
 
 /// E near a light in the finest of three grids, and in that grid alone. It is the same within 3 of
