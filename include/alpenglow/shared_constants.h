@@ -45,7 +45,7 @@
 #define ALP_LPV_GAIN 1.5
 // A covered face stops light by the cosine of its angle, so light at a slant gets through in part.
 // Opacity is multiplied by this. A wall of one cell lets 3.2 % through with 1 and .0 % with 1.6, at
-// .4 rad to the axes 8.9 % and 1.2 %, at .79 rad 13.1 % and 2.9 %.
+// .4 rad to the axes 9.0 % and 1.2 %, at .79 rad 15.9 % and 3.9 %.
 #define ALP_LPV_OPACITY 1.6
 
 // Diffuse albedo: its limit, so that light in closed rooms dies out, and that of a surface without

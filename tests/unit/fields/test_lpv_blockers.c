@@ -143,15 +143,15 @@ TEST(a_wall_of_one_cell_keeps_light_out)
 {
     static const double angles[5] = {0.0, 0.2, 0.4, 0.5, FIELD_PI / 4.0};
     static const double most[ALP_LPV_MODE_COUNT][5] = {
-        {.001, .01, .015, .02, .035}, {.03, .04, .05, .056, .078}, {.033, .042, .051, .058, .079}};
+        {.001, .01, .015, .02, .042}, {.03, .04, .05, .056, .078}, {.033, .042, .051, .058, .079}};
     bool good = true;
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
         for (int a = 0; a < 5; a++) {
             double worst = 0.0;
-            for (int i = 0; i < 4; i++) { // wherever its faces lie between nodes
-                const uint32_t bounces = i % 2 != 0 ? 1u : ALP_BOUNCES_CONVERGE;
-                worst = fmax(worst,
-                             leak((alp_lpv_mode)mode, 0.25f * (float)i, 1.0f, angles[a], bounces));
+            for (int i = 0; i < 8; i++) { // wherever its faces lie between nodes
+                const uint32_t bounces = i < 4 ? 1u : ALP_BOUNCES_CONVERGE;
+                worst = fmax(worst, leak((alp_lpv_mode)mode, 0.25f * (float)(i % 4), 1.0f,
+                                         angles[a], bounces));
             }
             print_message("%s: a wall of one cell at %.2f rad lets %.2f %% through\n",
                           mode_names[mode], angles[a], 100.0 * worst);
