@@ -118,7 +118,8 @@ typedef struct alp_render_options {
     /// FIELD: coefficient S [m⁻¹] ≥ 0 of a medium in the bounds of the scene, which scatters light
     /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`
     /// and, unless without_direct, of lamps and suns, with shadows:
-    ///     L = ∫ S e^(−S t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
+    ///     L = ∫ S e^(−S t) c(t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
+    /// c(t) is the colour of the panes before t.
     /// Light is dimmed on its way to the camera alone. By 32 steps a camera ray.
     float scattering;
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from

@@ -78,13 +78,11 @@ alp_lpv_options alp_lpv_options_for_view(const alp_scene *scene, uint32_t grid, 
 {
     alp_lpv_options o = alp_lpv_options_for_scene(scene, grid, cascades);
     const alp_scene_info info = alp_scene_get_info(scene);
-    double squares = 0.0, cell = 0.0;
-    for (int k = 0; k < 3; k++) {
-        squares += forward[k] * forward[k];
-    }
+    const double length = hypot(hypot(forward[0], forward[1]), forward[2]);
+    double cell = 0.0;
     for (int k = 0; k < 3; k++) {
         const double low = (double)info.bounds_min[k], high = (double)info.bounds_max[k];
-        const double ahead = squares > 0.0 ? ALPI_LPV_AHEAD * forward[k] / sqrt(squares) : 0.0;
+        const double ahead = length > 0.0 ? ALPI_LPV_AHEAD * (forward[k] / length) : 0.0;
         o.centre[k] = fmin(fmax(eye[k], low), high);
         cell = fmax(cell, (high - o.centre[k]) / find_room(grid, 1.0 + ahead));
         cell = fmax(cell, (o.centre[k] - low) / find_room(grid, 1.0 - ahead));

@@ -184,7 +184,7 @@ TEST(grids_of_a_view_hold_the_scene)
     static const double eyes[4][3] = {
         {0.3, 0.3, 0.3}, {0.0, 0.0, 0.0}, {0.5, 0.1, 0.4}, {9.0, -9.0, 0.2}};
     static const double ways[4][3] = {
-        {0.0, 0.0, 0.0}, {0.0, 0.0, -7.0}, {1.0, 1.0, 1.0}, {-0.2, 0.5, 0.1}};
+        {0.0, 0.0, 0.0}, {0.0, 0.0, -7.0}, {1e200, 1e200, 1e200}, {-0.2, 0.5, 0.1}};
     alp_scene *scene = test_load(context, "builtin:cornell");
     const alp_scene_info info = alp_scene_get_info(scene);
     for (int i = 0; i < 48; i++) {
