@@ -1,229 +1,30 @@
 // SPDX-License-Identifier: MIT
-// Light propagation: a step against the memory that it streams and against a plain scatter, a frame
-// of cascades by stage, and the reach of light.
-#include "bench.h"
-#include "plot.h"
+// Light propagation: a frame of cascades by stage, and the goals that all parts are held to.
+#include "lpv_parts.h"
 
-#include "base/memory.h"
-#include "base/random.h"
 #include "fields/propagation/lpv.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-enum { ROUNDS = 9, STEPS = 8, LIGHTS = 4096, MAP = 256, REACH = 16 };
-static const char *const mode_names[ALP_LPV_MODE_COUNT] = {"accurate", "conformance", "transfer"};
-
-// --- volumes with light in them ------------------------------------------------------------------
-
-/// Lights and blockers at random places of a grid.
-static alp_result fill(alp_lpv *lpv, uint32_t count)
-{
-    const double reach = (double)lpv->options.size[0] * lpv->options.cell;
-    float(*positions)[3] = bench_allocate(count, sizeof *positions);
-    float(*normals)[3] = bench_allocate(count, sizeof *normals);
-    float(*flux)[3] = bench_allocate(count, sizeof *flux);
-    float *areas = bench_allocate(count, sizeof *areas);
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = 0; k < 3; k++) {
-            const float u = alpi_unit_float(alpi_hash32(3 * i + k));
-            positions[i][k] = (float)(reach * ((double)u - 0.5));
-            flux[i][k] = 1.0f;
-        }
-        normals[i][i % 3] = i % 2 == 0 ? 1.0f : -1.0f;
-        areas[i] = 0.1f;
-    }
-    const alp_lpv_surfels s = {.count = count,
-                               .positions = (const float(*)[3])positions,
-                               .normals = (const float(*)[3])normals,
-                               .flux = (const float(*)[3])flux,
-                               .areas = areas};
-    alp_lpv_begin(lpv);
-    alp_result result = alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s);
-    if (result == ALP_OK && lpv->options.blockers) {
-        result = alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s);
-    }
-    free(positions);
-    free(normals);
-    free(flux);
-    free(areas);
-    return result;
-}
-
-/// Seconds of `STEPS` steps alone: those of a long run less those of a short one.
-static double time_steps(alp_lpv *lpv)
-{
-    double seconds[2];
-    for (int i = 0; i < 2; i++) {
-        lpv->iterations = i == 0 ? 1 : STEPS + 1;
-        const double started = bench_thread_seconds();
-        if (alp_lpv_propagate(lpv) != ALP_OK) {
-            return 0.0;
-        }
-        seconds[i] = bench_thread_seconds() - started;
-    }
-    return seconds[1] - seconds[0];
-}
-
-// --- what a step is held to ----------------------------------------------------------------------
-
-/// Memory alone: a volume is read, one written, and a third added to.
-static double time_floor(size_t values, const float *light, float *next, float *sum)
-{
-    const double started = bench_thread_seconds();
-    for (int s = 0; s < STEPS; s++) {
-        for (size_t i = 0; i < values; i++) {
-            next[i] = 0.5f * light[i];
-            sum[i] += next[i];
-        }
-        __asm__ volatile("" : : "r"(next), "r"(sum) : "memory"); // each pass is run
-    }
-    return bench_thread_seconds() - started;
-}
-
-/// A first draft: cells scatter to their neighbours, a face at a time.
-static void scatter_cell(const uint32_t n, size_t cell, const uint32_t at[3], const float *light,
-                         float *next)
-{
-    const float pi = (float)ALPI_PI;
-    for (int d = 0; d < 6; d++) {
-        const int axis = d / 2, sign = d % 2 == 0 ? 1 : -1;
-        const int64_t to = (int64_t)at[axis] + sign;
-        if (to < 0 || to >= (int64_t)n) {
-            continue;
-        }
-        const size_t steps[3] = {1, n, (size_t)n * n};
-        const size_t target = sign > 0 ? cell + steps[axis] : cell - steps[axis];
-        for (int face = 0; face < 5; face++) {
-            float w[3] = {0.0f, 0.0f, 0.0f};
-            w[axis] = (float)sign * (face == 0 ? 1.0f : (float)ALP_LPV_ALONG);
-            if (face > 0) {
-                const int way = face % 2 == 1 ? 1 : -1;
-                w[(axis + 1 + (face - 1) / 2) % 3] = (float)way * (float)ALP_LPV_ASIDE;
-            }
-            const float angle = (float)(face == 0 ? ALP_LPV_FAR : ALP_LPV_SIDE);
-            for (int c = 0; c < 3; c++) {
-                const float *p = light + cell * ALPI_LPV_ROWS + 4 * c;
-                float *q = next + target * ALPI_LPV_ROWS + 4 * c;
-                const float flux = angle * fmaxf(p[0] + p[1] * w[0] + p[2] * w[1] + p[3] * w[2], 0);
-                q[0] += flux / (4.0f * pi);
-                for (int k = 0; k < 3; k++) {
-                    q[1 + k] += flux / (2.0f * pi) * w[k];
-                }
-            }
-        }
-    }
-}
-
-static double time_scatter(uint32_t n, float *light, float *next, float *sum)
-{
-    const size_t cells = (size_t)n * n * n, values = cells * ALPI_LPV_ROWS;
-    const double started = bench_thread_seconds();
-    for (int s = 0; s < STEPS; s++) {
-        memset(next, 0, values * sizeof *next);
-        for (size_t cell = 0; cell < cells; cell++) {
-            const uint32_t at[3] = {(uint32_t)(cell % n), (uint32_t)(cell / n % n),
-                                    (uint32_t)(cell / n / n)};
-            scatter_cell(n, cell, at, light, next);
-        }
-        for (size_t i = 0; i < values; i++) {
-            sum[i] += next[i];
-        }
-        float *swap = light;
-        light = next;
-        next = swap;
-    }
-    return bench_thread_seconds() - started;
-}
-
-// --- a step --------------------------------------------------------------------------------------
-
-enum { KIND_FREE, KIND_BLOCKED, KIND_REFLECTS, KIND_COUNT };
-
-static alp_result make(alp_context *context, uint32_t n, int kind, alp_lpv **lpv)
-{
-    alp_lpv_options o = alp_lpv_options_default();
-    for (int k = 0; k < 3; k++) {
-        o.size[k] = n;
-    }
-    o.blockers = kind != KIND_FREE;
-    o.bounces = kind == KIND_REFLECTS ? ALP_BOUNCES_CONVERGE : 1;
-    ALP_TRY(alp_lpv_create(context, &o, lpv));
-    return fill(*lpv, LIGHTS);
-}
-
-/// Rounds take all kinds, the floor and the scatter in turns.
-static alp_result measure_size(alp_context *context, uint32_t n, int rounds, bench_table *table)
-{
-    const size_t values = (size_t)n * n * n * ALPI_LPV_ROWS;
-    alp_lpv *volumes[KIND_COUNT] = {NULL};
-    double steps[KIND_COUNT][ROUNDS], floors[ROUNDS], scatters[ROUNDS];
-    alp_result result = ALP_OK;
-    float *work[3];
-    for (int i = 0; i < 3; i++) {
-        work[i] = bench_allocate(values, sizeof *work[i]);
-    }
-    for (int k = 0; k < KIND_COUNT && result == ALP_OK; k++) {
-        result = make(context, n, k, &volumes[k]);
-    }
-    for (int r = 0; r < rounds && result == ALP_OK; r++) {
-        for (size_t i = 0; i < values; i++) {
-            work[0][i] = i % 4 == 0 ? 1.0f : 0.0f;
-        }
-        floors[r] = time_floor(values, work[0], work[1], work[2]);
-        for (int k = 0; k < KIND_COUNT; k++) {
-            steps[k][r] = time_steps(volumes[k]);
-        }
-        scatters[r] = time_scatter(n, work[0], work[1], work[2]);
-    }
-    if (result == ALP_OK) {
-        const double floor = bench_median(floors, rounds), free = bench_median(steps[0], rounds);
-        bench_table_add(table, "%u³|%.3f|%.3f|%.1f|%.1f|%.1f|%.0f", n, 1e3 * floor / STEPS,
-                        1e3 * free / STEPS, free / floor, bench_median(steps[1], rounds) / floor,
-                        bench_median(steps[2], rounds) / floor,
-                        bench_median(scatters, rounds) / free);
-    }
-    for (int k = 0; k < KIND_COUNT; k++) {
-        alp_lpv_destroy(volumes[k]);
-    }
-    for (int i = 0; i < 3; i++) {
-        free(work[i]);
-    }
-    return result;
-}
-
-static alp_result measure_steps(const bench_options *options)
-{
-    static const uint32_t sizes[3] = {16, 32, 64};
-    bench_scene none = {.name = "step"};
-    bench_table table;
-    bench_table_start(
-        &table, "One step on one core",
-        "Floor: a volume read, one written, one added to. Times in the same rounds.",
-        "grid|floor, ms|step, ms|step / floor|with blockers|and bounces|scatter / step");
-    alp_context_options o = alp_context_options_default();
-    o.worker_count = 1;
-    ALP_TRY(alp_context_create(&o, &none.context));
-    alp_result result = ALP_OK;
-    for (int i = 0; i < (options->quick ? 1 : 3) && result == ALP_OK; i++) {
-        result = measure_size(none.context, sizes[i], options->quick ? 1 : ROUNDS, &table);
-    }
-    (void)bench_good(&none, result);
-    alp_context_destroy(none.context);
-    bench_table_print(&table, options);
-    return result;
-}
+enum { ROUNDS = 9, MAP = 256 };
 
 // --- a frame -------------------------------------------------------------------------------------
 
 /// Medians of the stages over some frames of a scene under a sun that turns.
 static alp_result measure_frame(const bench_scene *s, const char *what, uint32_t cascades,
-                                uint32_t bounces, uint32_t points, int rounds, bench_table *table)
+                                uint32_t bounces, uint32_t points, int rounds, bench_table *table,
+                                double *milliseconds)
 {
-    alp_lpv_options o = alp_lpv_options_for_scene(s->scene, 32, cascades);
     alp_lpv_scene_options so = alp_lpv_scene_options_default();
     const alp_camera camera = alp_scene_get_camera(s->scene, 0);
+    double eye[3], forward[3];
+    for (int k = 0; k < 3; k++) {
+        eye[k] = (double)camera.position[k];
+        forward[k] = (double)camera.target[k] - eye[k];
+    }
+    alp_lpv_options o = cascades > 1
+                            ? alp_lpv_options_for_view(s->scene, 32, cascades, eye, forward)
+                            : alp_lpv_options_for_scene(s->scene, 32, 1);
     double stages[4][ROUNDS], total[ROUNDS];
     alp_lpv *lpv = NULL;
     o.bounces = bounces;
@@ -233,7 +34,7 @@ static alp_result measure_frame(const bench_scene *s, const char *what, uint32_t
     so.lighting.sun.illuminance = 10.0f;
     so.lighting.sun.elevation = 0.9f;
     ALP_TRY(alp_lpv_create(s->context, &o, &lpv));
-    alp_result result = ALP_OK;
+    alp_result result = cascades > 1 ? alp_lpv_follow(lpv, o.centre, forward) : ALP_OK;
     for (int r = 0; r < rounds && result == ALP_OK; r++) {
         alp_lpv_report report;
         so.lighting.sun.azimuth = 0.00175f * (float)r;
@@ -246,37 +47,42 @@ static alp_result measure_frame(const bench_scene *s, const char *what, uint32_t
         }
     }
     if (result == ALP_OK) {
+        *milliseconds = bench_median(total, rounds);
         bench_table_add(table, "%s|%.1f|%.1f|%.1f|%.1f|%.1f", what, bench_median(stages[0], rounds),
                         bench_median(stages[1], rounds), bench_median(stages[2], rounds),
-                        bench_median(stages[3], rounds), bench_median(total, rounds));
+                        bench_median(stages[3], rounds), *milliseconds);
     }
     alp_lpv_destroy(lpv);
     return result;
 }
 
-static alp_result measure_frames(const bench_options *options)
+static alp_result measure_frames(const bench_options *options, lpv_figures *figures)
 {
     bench_scene s;
     bench_table table;
     const int rounds = options->quick ? 1 : ROUNDS;
+    double other = 0.0;
     const uint32_t all = ALP_BOUNCES_CONVERGE, points = options->quick ? 256 : 65536;
     bench_table_start(&table, "A frame on all cores",
                       "The atrium under a sun that turns, grids of 32³, milliseconds of the clock. "
-                      "Three cascades take 8 steps, one grid 32. Maps have 256² texels, one for "
+                      "Three cascades follow the scene's camera and take 8 steps, one grid takes "
+                      "32. Maps have 256² texels, one for "
                       "each cascade. Points: 65,536.",
                       "frame|trace maps|inject|blockers|propagate|all but tracing");
     if (!bench_scene_open("builtin:atrium", 0, &s)) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
-    alp_result result = measure_frame(&s, "3 cascades, views block", 3, 1, 0, rounds, &table);
+    alp_result result =
+        measure_frame(&s, "3 cascades, views block", 3, 1, 0, rounds, &table, &figures->frame);
     if (result == ALP_OK) {
-        result = measure_frame(&s, "3 cascades, points block", 3, 1, points, rounds, &table);
+        result =
+            measure_frame(&s, "3 cascades, points block", 3, 1, points, rounds, &table, &other);
     }
     if (result == ALP_OK) {
-        result = measure_frame(&s, "the same with bounces", 3, all, points, rounds, &table);
+        result = measure_frame(&s, "the same with bounces", 3, all, points, rounds, &table, &other);
     }
     if (result == ALP_OK) {
-        result = measure_frame(&s, "one grid with bounces", 1, all, points, rounds, &table);
+        result = measure_frame(&s, "one grid with bounces", 1, all, points, rounds, &table, &other);
     }
     (void)bench_good(&s, result);
     bench_scene_close(&s);
@@ -284,78 +90,49 @@ static alp_result measure_frames(const bench_options *options)
     return result;
 }
 
-// --- reach ---------------------------------------------------------------------------------------
+// --- goals ---------------------------------------------------------------------------------------
 
-/// E on the axis of one light over Φ/(πr²), at 1 … REACH cells.
-static alp_result find_reach(alp_context *context, alp_lpv_mode mode, uint32_t steps,
-                             float reach[REACH])
-{
-    const float position[1][3] = {{0.5f, 0.5f, 0.0f}}, up[1][3] = {{0.0f, 0.0f, 1.0f}};
-    const float flux[1][3] = {{1.0f, 1.0f, 1.0f}};
-    const alp_lpv_surfels light = {.count = 1, .positions = position, .normals = up, .flux = flux};
-    alp_lpv_options o = alp_lpv_options_default();
-    alp_lpv_grid g;
-    alp_lpv *lpv = NULL;
-    o.size[0] = o.size[1] = o.size[2] = 2 * REACH + 8;
-    o.cell = 1.0;
-    o.mode = mode;
-    o.blockers = false;
-    o.iterations = steps;
-    ALP_TRY(alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    alp_result result = alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &light);
-    result = result == ALP_OK ? alp_lpv_propagate(lpv) : result;
-    alp_lpv_get_grid(lpv, 0, &g);
-    const size_t n = g.size[0], zero = (size_t)(-g.corner[0]);
-    for (size_t r = 1; r <= REACH && result == ALP_OK; r++) {
-        const float *row = g.intensities + ((zero + r) * n + zero) * ALPI_LPV_ROWS * n + zero;
-        const double e =
-            (ALPI_PI * (double)row[0] + 2.0 / 3.0 * ALPI_PI * (double)row[3 * n]) / ALP_LPV_GAIN;
-        reach[r - 1] = (float)(e * ALPI_PI * (double)(r * r));
-    }
-    alp_lpv_destroy(lpv);
-    return result;
-}
+typedef struct goal {
+    const char *what, *wanted;
+    double value, bound;
+    bool least; // the bound is
+} goal;
 
-static alp_result measure_reach(const bench_options *options)
+static void print_goals(const bench_options *options, const lpv_figures *f)
 {
-    bench_scene none = {.name = "reach"};
-    bench_table table;
-    static float reach[ALP_LPV_MODE_COUNT][REACH];
-    plot_panel panel = {.title = "E on the axis of a light over that of free space, 32 steps",
-                        .across = "cells from the light",
-                        .low = 1.0,
-                        .high = REACH};
-    bench_table_start(&table, "Reach",
-                      "E on the axis of one light in free space over Φ/(πr²), after 32 steps. 1 "
-                      "would be right.",
-                      "mode|1 cell|2|3|4|6|8|12|16");
-    alp_context_options o = alp_context_options_default();
-    ALP_TRY(alp_context_create(&o, &none.context));
-    alp_result result = ALP_OK;
-    for (int m = 0; m < ALP_LPV_MODE_COUNT && result == ALP_OK; m++) {
-        result = find_reach(none.context, (alp_lpv_mode)m, options->quick ? 2 : 32, reach[m]);
-        const float *e = reach[m];
-        bench_table_add(&table, "%s|%.3f|%.3f|%.3f|%.3f|%.3f|%.3f|%.3f|%.3f", mode_names[m],
-                        (double)e[0], (double)e[1], (double)e[2], (double)e[3], (double)e[5],
-                        (double)e[7], (double)e[11], (double)e[15]);
-        panel.lines[m] = (plot_line){.name = mode_names[m], .values = e, .count = REACH};
+    const goal goals[] = {
+        {"step at 32³ / floor", "≤ 4", f->step, 4.0, false},
+        {"the same with blockers", "≤ 6", f->blocked, 6.0, false},
+        {"plain scatter / step", "≥ 20", f->scatter, 20.0, true},
+        {"three cascades, views block, ms", "≤ 16", f->frame, 16.0, false},
+        {"behind a wall of one cell, %", "≤ 5", f->wall, 5.0, false},
+        {"99.9 % of changes a frame, %", "≤ 0.5", f->usual, 0.5, false},
+        {"largest change a frame, %", "≤ 2", f->most, 2.0, false},
+    };
+    bench_table t;
+    bench_table_start(&t, "Goals",
+                      "Figures of the tables above, of the default mode. Changes a frame: sun and "
+                      "camera, maps of 256². They include the change of the light itself.",
+                      "goal|wanted|measured|verdict");
+    for (size_t i = 0; i < sizeof goals / sizeof *goals; i++) {
+        const goal *g = &goals[i];
+        const bool met = g->least ? g->value >= g->bound : g->value <= g->bound;
+        const char *verdict = options->quick ? "none" : met ? "met" : "missed";
+        bench_table_add(&t, "%s|%s|%.2f|%s", g->what, g->wanted, g->value, verdict);
     }
-    panel.line_count = ALP_LPV_MODE_COUNT;
-    (void)bench_good(&none, result);
-    alp_context_destroy(none.context);
-    bench_table_print(&table, options);
-    if (result == ALP_OK && options->pictures != NULL) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/lpv-reach.svg", options->pictures);
-        result = plot_write(path, "Reach of propagated light", &panel, 1) ? ALP_OK : ALP_ERROR_IO;
-    }
-    return result;
+    bench_table_print(&t, options);
 }
 
 int bench_lpv(const bench_options *options)
 {
-    const bool good = measure_steps(options) == ALP_OK && measure_frames(options) == ALP_OK &&
-                      measure_reach(options) == ALP_OK;
-    return good ? bench_lpv_truth(options) : 1;
+    lpv_figures f = {0};
+    const bool good =
+        lpv_measure_steps(options, &f) == ALP_OK && measure_frames(options, &f) == ALP_OK &&
+        lpv_measure_reach(options) == ALP_OK && lpv_measure_walls(options, &f) == ALP_OK &&
+        lpv_measure_boxes(options) == ALP_OK && lpv_measure_stability(options, &f) == ALP_OK;
+    if (!good) {
+        return 1;
+    }
+    print_goals(options, &f);
+    return bench_lpv_truth(options);
 }

@@ -16,14 +16,14 @@ enum { POINTS = 1000, PATHS = 512, STREAM = 9, PLACES = 2, DEPTHS = 2 };
 
 typedef struct truth_scene {
     const char *name, *title, *light;
-    bool sun, shared;
-    float spacing; // metres of probes
+    bool sun, shared, more, steps; // a sun; below ALPENGLOW_SHARED; further rows and tables
+    float spacing;                 // metres of probes
 } truth_scene;
 static const truth_scene scenes[] = {
-    {"builtin:cornell", "cornell", "its own", false, false, 0.035f},
-    {"builtin:teapot-room", "teapot-room", "its own", false, false, 0.5f},
-    {"builtin:atrium", "atrium", "a sun", true, false, 1.0f},
-    {"scenes/architecture/zdm2.glb", "zdm2", "a sun", true, true, 4.0f},
+    {"builtin:cornell", "cornell", "its own", false, false, false, true, 0.035f},
+    {"builtin:teapot-room", "teapot-room", "its own", false, false, false, false, 0.5f},
+    {"builtin:atrium", "atrium", "a sun", true, false, true, false, 1.0f},
+    {"scenes/architecture/zdm2.glb", "zdm2", "a sun", true, true, false, false, 4.0f},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
@@ -102,42 +102,66 @@ static void judge(const truth_case *c, int place, int depth, double *error, doub
     *bias = 100.0 * more / all;
 }
 
-static void add_row(truth_case *c, const char *model, const char *grid, const char *blockers,
-                    const alp_field *field, int depth)
+/// Reads a field at all points, and judges it by place.
+static void read_field(truth_case *c, const alp_field *field, int depth, double error[PLACES],
+                       double bias[PLACES])
 {
-    double error[PLACES], bias[PLACES];
     alp_field_irradiance(field, PLACES * c->count, (const float(*)[3])c->positions,
                          (const float(*)[3])c->normals, c->values);
     for (int p = 0; p < PLACES; p++) {
         judge(c, p, depth, &error[p], &bias[p]);
     }
+}
+
+static void add_row(truth_case *c, const char *model, const char *grid, const char *blockers,
+                    const alp_field *field, int depth)
+{
+    double error[PLACES], bias[PLACES];
+    read_field(c, field, depth, error, bias);
     bench_table_add(&c->table, "%s|%s|%s|%s|%.0f|%+.0f|%.0f|%+.0f", model, grid, blockers,
                     depth == 0 ? "one" : "all", error[0], bias[0], error[1], bias[1]);
 }
 
-static alp_result measure_lpv(truth_case *c, alp_lpv_mode mode, uint32_t grid, bool blockers,
-                              int depth)
+typedef enum lpv_blockers { OFF, POINTS_BLOCK, VIEWS_BLOCK } lpv_blockers;
+
+typedef struct lpv_row {
+    alp_lpv_mode mode;
+    uint32_t grid, iterations; // cells; steps, 0: the default
+    lpv_blockers blockers;
+    int depth;
+} lpv_row;
+
+/// Lights a volume as `alpenglow lpv` does, and makes its field.
+static alp_result light_volume(const truth_case *c, const lpv_row *row, alp_lpv **lpv,
+                               alp_field **field)
 {
-    static const char *const names[2] = {"accurate", "conformance"};
-    alp_lpv_options o = alp_lpv_options_for_scene(c->scene.scene, grid, 1);
+    alp_lpv_options o = alp_lpv_options_for_scene(c->scene.scene, row->grid, 1);
     alp_lpv_scene_options so = alp_lpv_scene_options_default();
+    const alp_camera camera = alp_scene_get_camera(c->scene.scene, 0);
+    o.mode = row->mode;
+    o.iterations = row->iterations;
+    o.blockers = row->blockers != OFF;
+    o.bounces = row->depth == 0 ? 1 : ALP_BOUNCES_CONVERGE;
+    so.lighting = c->light;
+    so.map_size = c->quick ? 16 : so.map_size;
+    so.points = row->blockers == VIEWS_BLOCK ? 0 : c->quick ? 1024 : so.points;
+    so.camera = &camera;
+    ALP_TRY(alp_lpv_create(c->scene.context, &o, lpv));
+    ALP_TRY(alp_lpv_light_scene(*lpv, c->scene.scene, &so, NULL));
+    return alp_field_create_lpv(*lpv, field);
+}
+
+static alp_result measure_lpv(truth_case *c, const lpv_row *row)
+{
+    static const char *const names[] = {"accurate", "conformance", "transfer"};
+    static const char *const blockers[] = {"off", "points", "views"};
     char size[16];
     alp_lpv *lpv = NULL;
     alp_field *field = NULL;
-    o.mode = mode;
-    o.blockers = blockers;
-    o.bounces = depth == 0 ? 1 : ALP_BOUNCES_CONVERGE;
-    so.lighting = c->light;
-    so.map_size = c->quick ? 16 : so.map_size;
-    so.points = c->quick ? 1024 : 4 * so.points;
-    snprintf(size, sizeof size, "%u³", grid);
-    ALP_TRY(alp_lpv_create(c->scene.context, &o, &lpv));
-    alp_result result = alp_lpv_light_scene(lpv, c->scene.scene, &so, NULL);
+    snprintf(size, sizeof size, "%u³", row->grid);
+    const alp_result result = light_volume(c, row, &lpv, &field);
     if (result == ALP_OK) {
-        result = alp_field_create_lpv(lpv, &field);
-    }
-    if (result == ALP_OK) {
-        add_row(c, names[mode], size, blockers ? "points" : "off", field, depth);
+        add_row(c, names[row->mode], size, blockers[row->blockers], field, row->depth);
     }
     alp_field_destroy(field);
     alp_lpv_destroy(lpv);
@@ -169,12 +193,67 @@ static alp_result measure_scene(truth_case *c)
     ALP_TRY(find_truth(c));
     for (int g = 0; g < (c->quick ? 1 : 3); g++) {
         for (int mode = 0; mode < 2; mode++) {
-            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], false, 0));
-            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], true, 0));
-            ALP_TRY(measure_lpv(c, (alp_lpv_mode)mode, grids[g], true, 1));
+            lpv_row row = {.mode = (alp_lpv_mode)mode, .grid = grids[g]};
+            ALP_TRY(measure_lpv(c, &row));
+            row.blockers = POINTS_BLOCK;
+            ALP_TRY(measure_lpv(c, &row));
+            row.depth = 1;
+            ALP_TRY(measure_lpv(c, &row));
         }
     }
+    for (int i = 0; i < 3 && c->what->more; i++) {
+        static const lpv_row more[3] = {{ALP_LPV_TRANSFER, 32, 0, POINTS_BLOCK, 1},
+                                        {ALP_LPV_ACCURATE, 32, 0, VIEWS_BLOCK, 1},
+                                        {ALP_LPV_CONFORMANCE, 32, 0, VIEWS_BLOCK, 1}};
+        ALP_TRY(measure_lpv(c, &more[i]));
+    }
     return c->quick ? ALP_OK : measure_probes(c);
+}
+
+// --- numbers of steps ----------------------------------------------------------------------------
+
+/// Sum of E at points of the floor over that of the truth.
+static double find_floor_share(const truth_case *c)
+{
+    const float low = c->scene.scene->bounds_min.y, high = c->scene.scene->bounds_max.y;
+    double sum = 0.0, truth = 0.0;
+    for (uint32_t i = c->count; i < PLACES * c->count; i++) {
+        const bool on_floor =
+            c->normals[i][1] > 0.99f && c->positions[i][1] < low + 0.01f * (high - low);
+        for (int k = 0; k < 3 && on_floor; k++) {
+            sum += (double)c->values[i][k];
+            truth += (double)c->truth[1][i][k];
+        }
+    }
+    return truth > 0.0 ? sum / truth : 0.0;
+}
+
+/// Rows of more steps than the default, at 32³ with points and all bounces.
+static alp_result measure_numbers_of_steps(truth_case *c, const bench_options *options)
+{
+    bench_table table;
+    bench_table_start(&table, "cornell by the number of steps",
+                      "At 32³, points block, all bounces. Floor: E on it over the truth.",
+                      "mode|steps|error in air, %|bias, %|error on surfaces, %|bias, %|floor");
+    for (int i = 0; i < (c->quick ? 1 : 6); i++) {
+        lpv_row row = {(alp_lpv_mode)(i / 3), c->quick ? 8 : 32, 32u << i % 3, POINTS_BLOCK, 1};
+        alp_lpv *lpv = NULL;
+        alp_field *field = NULL;
+        const alp_result result = light_volume(c, &row, &lpv, &field);
+        if (result == ALP_OK) {
+            double error[PLACES], bias[PLACES];
+            read_field(c, field, 1, error, bias);
+            bench_table_add(&table, "%s|%u|%.0f|%+.0f|%.0f|%+.0f|%.2f",
+                            row.mode == ALP_LPV_ACCURATE ? "accurate" : "conformance",
+                            row.iterations, error[0], bias[0], error[1], bias[1],
+                            find_floor_share(c));
+        }
+        alp_field_destroy(field);
+        alp_lpv_destroy(lpv);
+        ALP_TRY(result);
+    }
+    bench_table_print(&table, options);
+    return ALP_OK;
 }
 
 static bool run_scene(const truth_scene *what, const bench_options *options)
@@ -207,8 +286,11 @@ static bool run_scene(const truth_scene *what, const bench_options *options)
     for (int d = 0; d < DEPTHS; d++) {
         c.truth[d] = bench_allocate(all, sizeof *c.truth[d]);
     }
-    const bool good = bench_good(&c.scene, measure_scene(&c));
+    bool good = bench_good(&c.scene, measure_scene(&c));
     bench_table_print(&c.table, options);
+    if (good && what->steps) {
+        good = bench_good(&c.scene, measure_numbers_of_steps(&c, options));
+    }
     free(c.positions);
     free(c.normals);
     free(c.values);

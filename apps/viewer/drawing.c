@@ -4,6 +4,8 @@
 #include "options/options.h"
 #include "picture.h"
 
+#include <math.h>
+
 /// More panes than any eye sees through.
 enum { LAYER_LIMIT = 4096 };
 
@@ -96,17 +98,19 @@ static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer
     return pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
 }
 
-/// Lights the volume. Several grids follow the camera.
+/// Lights the volume. Several grids follow the camera as far as the scene reaches.
 static void light_volume(drawing *d, const camera_view *view)
 {
     const alp_lpv_options *o = &d->light.lpv->volume.options;
+    const alp_scene_info info = alp_scene_get_info(d->scene);
     lpv_frame_scene in = {.scene = d->scene,
                           .drawn = &d->drawn,
                           .lights = &d->light.lights,
                           .camera = view,
                           .metals_black = d->surfaces.metals_black};
     for (int k = 0; k < 3; k++) {
-        in.eye[k] = o->cascades > 1 ? (double)view->origin[k] : o->centre[k];
+        const float near = fmaxf(view->origin[k], info.bounds_min[k]);
+        in.eye[k] = o->cascades > 1 ? (double)fminf(near, info.bounds_max[k]) : o->centre[k];
         in.forward[k] = o->cascades > 1 ? (double)view->forward[k] : 0.0;
     }
     lpv_frame_light(d->light.lpv, &in);

@@ -13,10 +13,14 @@
 //     alp_lpv_propagate(lpv);
 //     alp_field_irradiance(field, count, positions, normals, irradiance);
 //
-// Or alp_lpv_light_scene does all five with rays through a scene.
+// Or alp_lpv_light_scene does begin, add_light, add_blockers and propagate, with rays through a
+// scene.
 // One thread calls what changes a volume. Between changes any number of threads may read it.
 // Based on: A. Kaplanyan, C. Dachsbacher. Cascaded Light Propagation Volumes for Real-Time Indirect
 //           Illumination. I3D 2010.
+// Departures in all modes: a step keeps all light, and surfaces are read half a cell above, beyond
+// cells that lie half in a wall. ACCURATE does not damp light, which blackens walls near lit
+// floors.
 #ifndef ALPENGLOW_LPV_H
 #define ALPENGLOW_LPV_H
 
@@ -62,7 +66,8 @@ typedef struct alp_lpv_options {
 ALP_API alp_lpv_options alp_lpv_options_default(void);
 
 /// Bytes that a volume of these options holds: about 200 a cell. With blockers 140 more for each
-/// corner of cells.
+/// corner of cells. Beside them the volume keeps 32 bytes for each surfel of its largest call, and
+/// alp_lpv_light_scene takes 56 bytes for each texel of a map, or point, while it adds them.
 ALP_API uint64_t alp_lpv_memory(const alp_lpv_options *options);
 
 /// @param options NULL = defaults
@@ -77,6 +82,14 @@ ALP_API void alp_lpv_destroy(alp_lpv *lpv);
 /// @param scene   @param grid cells along each side   @param cascades [1, 8]
 ALP_API alp_lpv_options alp_lpv_options_for_scene(const alp_scene *scene, uint32_t grid,
                                                   uint32_t cascades);
+
+/// Options whose grids hold a scene from where a viewer is: with alp_lpv_follow to the same place
+/// the coarsest reaches a cell beyond its bounds.
+/// @param eye     metres; `centre` is the nearest place in the bounds, to be followed
+/// @param forward any length; 0: the grids lie round the eye
+ALP_API alp_lpv_options alp_lpv_options_for_view(const alp_scene *scene, uint32_t grid,
+                                                 uint32_t cascades, const double eye[3],
+                                                 const double forward[3]);
 
 /// Moves the grids, by whole cells, so that the eye looks into the larger part of each.
 /// @param eye metres   @param forward any length; 0: the grids are centred at the eye
@@ -102,7 +115,8 @@ ALP_API void alp_lpv_begin(alp_lpv *lpv);
 ALP_API void alp_lpv_begin_with_last_blockers(alp_lpv *lpv);
 
 /// Small parts of surfaces: texels of a reflective shadow map or of a camera's picture. Arrays are
-/// borrowed during the call. Elements with a value that is not finite are left out and counted.
+/// borrowed during the call. Elements are left out and counted if a value is not finite, a normal
+/// not unit, an albedo above 1, or a flux or area so large that sums would not fit a float.
 typedef struct alp_lpv_surfels {
     uint32_t count;
     const float (*positions)[3]; ///< metres
@@ -111,7 +125,7 @@ typedef struct alp_lpv_surfels {
     /// (no cosine: the map's texel is seen along the sun's way); of a lamp albedo × I × solid angle
     const float (*flux)[3];
     const float *areas;       ///< m² of the surface; for blockers
-    const float (*albedo)[3]; ///< for blockers; NULL: 0.5
+    const float (*albedo)[3]; ///< [0, 1], for blockers; NULL: 0.5
     const float *radii; ///< metres of the bounding sphere of the object; 0, or NULL: any object.
                         ///< An object smaller than a cell is left out of that grid.
 } alp_lpv_surfels;
@@ -123,13 +137,15 @@ typedef struct alp_lpv_surfels {
 ///        coarser ones. At the end of a grid its map fades, and the next map takes over. The last
 ///        cell of the coarsest of several grids fades too, so that nothing jumps when grids move.
 ///        ALP_LPV_ALL_CASCADES: the map holds all light of its lamp.
-/// @return ALP_OK; INVALID_ARGUMENT (no flux, or no such cascade)
+/// @return ALP_OK; INVALID_ARGUMENT (no positions, normals or flux; no such cascade)
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade,
                                                    const alp_lpv_surfels *surfels);
 /// Injects blockers. One call is one view: views are merged, as they show the same surfaces.
 /// @param cascade the grid that the view was made for, which it enters alone, or
 ///        ALP_LPV_ALL_CASCADES
-/// @return ALP_OK; INVALID_ARGUMENT (no areas; no such cascade; the volume has no blockers)
+/// @return ALP_OK; INVALID_ARGUMENT (no positions, normals or areas; no such cascade; the volume
+/// has
+///         no blockers)
 ALP_API ALP_NODISCARD alp_result alp_lpv_add_blockers(alp_lpv *lpv, uint32_t cascade,
                                                       const alp_lpv_surfels *surfels);
 /// Lets light travel. Cost: about 20 ns a cell and step on one core, 40 with blockers, 60 with
@@ -163,6 +179,7 @@ typedef struct alp_lpv_scene_options {
     /// 0: the maps and `camera` are the views of blockers.
     uint32_t points;
     const alp_camera *camera; ///< a view of blockers, or NULL; borrowed during the call
+    float camera_aspect;      ///< width / height of that view, [1e-5, 1e5]; default 1
     uint64_t seed;
 } alp_lpv_scene_options;
 ALP_API alp_lpv_scene_options alp_lpv_scene_options_default(void);
@@ -171,7 +188,9 @@ ALP_API alp_lpv_scene_options alp_lpv_scene_options_default(void);
 typedef struct alp_lpv_report {
     size_t struct_size;
     double trace, inject, block, propagate; ///< seconds of each stage
-    uint64_t rays, lights;                  ///< rays of the maps; virtual point lights
+    uint64_t rays;                          ///< of the maps
+    uint64_t lit;                           ///< texels and points that send light
+    uint64_t lights;                        ///< those that a grid holds: virtual point lights
     double flux[3];                         ///< W injected into the coarsest grid
 } alp_lpv_report;
 
@@ -179,8 +198,8 @@ typedef struct alp_lpv_report {
 /// propagates: begin, add_light, add_blockers, propagate.
 /// A sun has a map for each grid; other lights one map. Glass counts as opaque.
 /// @param options NULL = defaults   @param report out, or NULL
-/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; nothing lights the scene);
-///         OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
+/// @return ALP_OK; INVALID_ARGUMENT (an option out of range; a camera without place, direction or
+///         angle; nothing lights the scene); OUT_OF_MEMORY; UNSUPPORTED (the ray tracer fails)
 ALP_API ALP_NODISCARD alp_result alp_lpv_light_scene(alp_lpv *lpv, const alp_scene *scene,
                                                      const alp_lpv_scene_options *options,
                                                      alp_lpv_report *report);
@@ -216,7 +235,7 @@ typedef struct alp_lpv_grid {
 ALP_API void alp_lpv_get_grid(const alp_lpv *lpv, uint32_t cascade, alp_lpv_grid *grid);
 /// Steps of a propagation: alp_lpv_options.iterations, or the number that 0 stands for.
 ALP_API uint32_t alp_lpv_iterations(const alp_lpv *lpv);
-/// Elements of surfels since `begin` that were left out because a value was not finite.
+/// Elements of surfels since `begin` that were left out for their values.
 ALP_API uint64_t alp_lpv_skipped(const alp_lpv *lpv);
 
 ALP_END_DECLS

@@ -112,13 +112,14 @@ typedef struct alp_render_options {
     const alp_lpv *lpv; ///< FIELD: the volume of `gloss` and `scattering`; NULL (default) without
     /// FIELD: surfaces mirror the light of `lpv`; default false. v points to the camera, r is v
     /// mirrored at the normal n, Lmirrored is alp_lpv_radiance along r, Schlick's F has F0 = .04,
-    /// or the base colour of a metal:
-    ///     L = Le + (1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
+    /// the base colour of a metal, or a mixture by its metallic m. Metals reflect no diffuse light:
+    ///     L = Le + (1 − m)(1 − F) ρ/π E + F Lmirrored(r),   F = F0 + (1 − F0)(1 − n·v)⁵
     bool gloss;
     /// FIELD: coefficient S [m⁻¹] ≥ 0 of a medium in the bounds of the scene, which scatters light
     /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`
     /// and, unless without_direct, of lamps and suns, with shadows:
-    ///     L = ∫ S e^(−S t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
+    ///     L = ∫ S e^(−S t) c(t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
+    /// c(t) is the colour of the panes before t.
     /// Light is dimmed on its way to the camera alone. By 32 steps a camera ray.
     float scattering;
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from

@@ -9,17 +9,25 @@
 
 #include <math.h>
 
-/// Steps along a ray.
-enum { STEPS = 4 * ALPI_PACKET };
+/// Steps along a ray, and panes whose tint of the medium is held.
+enum { STEPS = 4 * ALPI_PACKET, PANES = 8 };
 
 /// Part of a ray.
 typedef struct span {
     float begin, end; // metres
 } span;
 
-/// Distances at which rays end: at the first surface that is no pane, or INFINITY.
-static void find_ends(const alpi_air *air, const alpi_rays *from, uint32_t lanes,
-                      float ends[ALPI_PACKET])
+/// The way of a ray: panes that tint all light from behind them, and the first surface that is
+/// none.
+typedef struct way {
+    uint32_t panes;
+    float at[PANES];     // metres, near to far; light of more panes is tinted as behind the last
+    vec3 through[PANES]; // of that pane and those before it
+    float end;           // metres, or INFINITY
+} way;
+
+static void follow_rays(const alpi_air *air, const alpi_rays *from, uint32_t lanes,
+                        way ways[ALPI_PACKET])
 {
     const alpi_field_light *l = air->light;
     alpi_trace_filter filter = l->filter;
@@ -28,7 +36,7 @@ static void find_ends(const alpi_air *air, const alpi_rays *from, uint32_t lanes
     filter.panes = alpi_tracer_has_panes(l->tracer);
     for (int i = 0; i < ALPI_PACKET; i++) {
         left[i] = (vec3){1.0f, 1.0f, 1.0f};
-        ends[i] = INFINITY;
+        ways[i] = (way){.end = INFINITY};
     }
     for (int passed = 0; lanes != 0 && passed < ALPI_PANE_LIMIT; passed++) {
         alpi_hits hits;
@@ -38,11 +46,28 @@ static void find_ends(const alpi_air *air, const alpi_rays *from, uint32_t lanes
                 const vec3 moved = {rays.origin_x[i] - from->origin_x[i],
                                     rays.origin_y[i] - from->origin_y[i],
                                     rays.origin_z[i] - from->origin_z[i]};
-                ends[i] = hits.distance[i] + vec3_length(moved);
+                ways[i].end = hits.distance[i] + vec3_length(moved);
             }
         }
         lanes = filter.panes ? alpi_panes_go_on(l->scene, &hits, lanes, &rays, left) : 0;
+        for (int i = 0; i < ALPI_PACKET; i++) {
+            way *w = &ways[i];
+            if ((lanes >> i & 1u) != 0 && w->panes < PANES) {
+                w->at[w->panes] = w->end;
+                w->through[w->panes++] = left[i];
+            }
+        }
     }
+}
+
+/// What is left of light that comes from a distance along the way.
+static vec3 find_tint(const way *w, float distance)
+{
+    vec3 tint = {1.0f, 1.0f, 1.0f};
+    for (uint32_t i = 0; i < w->panes && w->at[i] < distance; i++) {
+        tint = w->through[i];
+    }
+    return tint;
 }
 
 /// The part of a ray inside the bounds of the scene, before its end.
@@ -73,25 +98,28 @@ static float find_depth(float scattering, float scattered, float u)
     return -log1pf(-u * scattered) / scattering;
 }
 
-/// Mean fluence / 4π of the steps of a span. @param scattered 1 − e^(−S length)   @param jitter [0,
-/// 1)
+/// Mean fluence / 4π of the steps of a span, as panes before them let it through.
+/// @param scattered 1 − e^(−S length)   @param jitter [0, 1)
 static vec3 average(const alpi_air *air, vec3 origin, vec3 direction, float begin, float scattered,
-                    float jitter)
+                    float jitter, const way *w)
 {
     const float share = (float)(1.0 / (4.0 * ALPI_PI * STEPS));
     vec3 sum = {0.0f, 0.0f, 0.0f};
     for (int step = 0; step < STEPS; step += ALPI_PACKET) {
         alpi_field_points points = {.count = ALPI_PACKET, .in_air = true};
-        float fluence[ALPI_PACKET][3];
+        float fluence[ALPI_PACKET][3], distances[ALPI_PACKET];
         for (int i = 0; i < ALPI_PACKET; i++) {
             const float u = ((float)(step + i) + jitter) / STEPS;
-            const float t = begin + find_depth(air->scattering, scattered, u);
-            vec3_store(points.positions[i], vec3_mad(origin, t, direction));
+            distances[i] = begin + find_depth(air->scattering, scattered, u);
+            vec3_store(points.positions[i], vec3_mad(origin, distances[i], direction));
         }
         alp_lpv_fluence(air->lpv, ALPI_PACKET, (const float(*)[3])points.positions, fluence);
         alpi_field_light_add_lamps(air->light, &points, fluence);
         for (int i = 0; i < ALPI_PACKET; i++) {
-            sum = vec3_mad(sum, share, vec3_load(fluence[i]));
+            const vec3 tint = find_tint(w, distances[i]);
+            sum.x += share * tint.x * fluence[i][0];
+            sum.y += share * tint.y * fluence[i][1];
+            sum.z += share * tint.z * fluence[i][2];
         }
     }
     return sum;
@@ -101,8 +129,8 @@ void alpi_air_along(const alpi_air *air, const alpi_rays *rays, uint32_t lanes, 
                     uint32_t first, vec3 scattered[ALPI_PACKET], float left[ALPI_PACKET])
 {
     const uint32_t air_key = alpi_hash32(key ^ 0x61697220u); // apart from places in the pixel
-    float ends[ALPI_PACKET];
-    find_ends(air, rays, lanes, ends);
+    way ways[ALPI_PACKET];
+    follow_rays(air, rays, lanes, ways);
     for (int i = 0; i < ALPI_PACKET; i++) {
         const vec3 origin = {rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]};
         const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
@@ -111,11 +139,11 @@ void alpi_air_along(const alpi_air *air, const alpi_rays *rays, uint32_t lanes, 
         if ((lanes >> i & 1u) == 0) {
             continue;
         }
-        const span s = clip(air->light->scene, origin, direction, ends[i]);
+        const span s = clip(air->light->scene, origin, direction, ways[i].end);
         const float share = -expm1f(-air->scattering * fmaxf(s.end - s.begin, 0.0f));
         const float jitter = alpi_sample_2d(air_key, first + (uint32_t)i).x;
         if (share > 0.0f) {
-            const vec3 mean = average(air, origin, direction, s.begin, share, jitter);
+            const vec3 mean = average(air, origin, direction, s.begin, share, jitter, &ways[i]);
             scattered[i] = vec3_scale(mean, share);
             left[i] = 1.0f - share;
         }

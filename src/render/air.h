@@ -16,8 +16,8 @@ typedef struct alpi_air {
 } alpi_air;
 
 /// The medium along rays, up to the surfaces that they meet, through panes. Light in it is dimmed
-/// on its way to the camera alone.
-///     scattered = ∫ S e^(−S t) fluence / 4π dt,   left = e^(−S T)
+/// on its way to the camera alone. Panes tint the light of the medium behind them by c(t).
+///     scattered = ∫ S e^(−S t) c(t) fluence / 4π dt,   left = e^(−S T)
 /// @param rays  unit directions   @param lanes bit i: lane i
 /// @param key   of the pixel's random numbers   @param first sample of lane 0
 /// @param scattered, left out, of those lanes

@@ -103,10 +103,8 @@ void alpi_field_light_at(const alpi_field_light *l, const alpi_field_points *poi
 /// Schlick's approximation of the share that a surface mirrors: .04 of a dielectric head-on, the
 /// base colour of a metal.
 /// Based on: C. Schlick. An Inexpensive BRDF Model for Physically-based Rendering. 1994.
-static vec3 find_fresnel(const alp_scene *scene, const alpi_surface_point *p, vec3 albedo,
-                         float cosine)
+static vec3 find_fresnel(vec3 albedo, float metallic, float cosine)
 {
-    const float metallic = alpi_surface_metallic(scene, p->triangle, p->b1, p->b2);
     const float dull = 1.0f - fminf(fmaxf(cosine, 0.0f), 1.0f);
     const float grazing = dull * dull * dull * dull * dull;
     const float base[3] = {albedo.x, albedo.y, albedo.z};
@@ -118,7 +116,8 @@ static vec3 find_fresnel(const alp_scene *scene, const alpi_surface_point *p, ve
     return vec3_load(share);
 }
 
-/// Exchanges a share of diffuse light for the light that comes along the mirrored ray.
+/// Exchanges a share F of diffuse light for the light that comes along the mirrored ray. Metals
+/// have no diffuse light: (1 − metallic)(1 − F) diffuse + F mirrored.
 static void add_gloss(const alpi_field_light *l, const alpi_field_points *at,
                       const alpi_surface_point *points, vec3 *radiance)
 {
@@ -131,13 +130,15 @@ static void add_gloss(const alpi_field_light *l, const alpi_field_points *at,
                      (const float(*)[3])directions, mirrored);
     for (uint32_t i = 0; i < at->count; i++) {
         const alpi_surface_point *p = &points[i];
-        const vec3 color = alpi_surface_albedo(l->scene, p->triangle, p->b1, p->b2);
+        const vec3 color = alpi_surface_color(l->scene, p->triangle, p->b1, p->b2);
         const float cosine = vec3_dot(vec3_load(at->normals[i]), p->toward);
-        const vec3 f = find_fresnel(l->scene, p, color, cosine);
+        const float metallic = alpi_surface_metallic(l->scene, p->triangle, p->b1, p->b2);
+        const vec3 f = find_fresnel(color, metallic, cosine);
         const float kept = alpi_surface_pane(l->scene, p->triangle, p->b1, p->b2).kept;
-        radiance[i].x += f.x * (kept * mirrored[i][0] - radiance[i].x);
-        radiance[i].y += f.y * (kept * mirrored[i][1] - radiance[i].y);
-        radiance[i].z += f.z * (kept * mirrored[i][2] - radiance[i].z);
+        const float diffuse = l->scene->metals_black ? 1.0f : 1.0f - metallic; // or it has it
+        radiance[i].x = diffuse * (1.0f - f.x) * radiance[i].x + f.x * kept * mirrored[i][0];
+        radiance[i].y = diffuse * (1.0f - f.y) * radiance[i].y + f.y * kept * mirrored[i][1];
+        radiance[i].z = diffuse * (1.0f - f.z) * radiance[i].z + f.z * kept * mirrored[i][2];
     }
 }
 

@@ -225,6 +225,8 @@ static inline float alpi_scene_diffuse_share(const alp_scene *scene, float metal
 /// Diffuse albedo ρ, clamped to [0, .95]: base colour, × (1 − metallic) where metals are black; .5
 /// without a material.
 vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2);
+/// The same of a metal that is not black: what its mirrored light is multiplied by.
+vec3 alpi_surface_color(const alp_scene *scene, uint32_t triangle, float b1, float b2);
 
 /// A place on a triangle: barycentric weights of corners 1 and 2.
 typedef struct alpi_surface_place {

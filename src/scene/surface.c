@@ -184,18 +184,29 @@ static float clamp_between(float value, float low, float high)
     return fminf(fmaxf(value, low), high);
 }
 
-vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+/// The base colour, or that of a surface without a material, × a share.
+static vec3 find_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2, float share)
 {
     const alpi_material *material = material_of(scene, triangle);
     if (material == NULL) {
         return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
     }
     const vec3 color = base_color_at(scene, material, (alpi_surface_place){triangle, b1, b2});
+    return (vec3){clamp_between(color.x * share, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.y * share, 0.0f, ALBEDO_LIMIT),
+                  clamp_between(color.z * share, 0.0f, ALBEDO_LIMIT)};
+}
+
+vec3 alpi_surface_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
     const float diffuse =
         scene->metals_black ? 1.0f - alpi_surface_metallic(scene, triangle, b1, b2) : 1.0f;
-    return (vec3){clamp_between(color.x * diffuse, 0.0f, ALBEDO_LIMIT),
-                  clamp_between(color.y * diffuse, 0.0f, ALBEDO_LIMIT),
-                  clamp_between(color.z * diffuse, 0.0f, ALBEDO_LIMIT)};
+    return find_albedo(scene, triangle, b1, b2, diffuse);
+}
+
+vec3 alpi_surface_color(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    return find_albedo(scene, triangle, b1, b2, 1.0f);
 }
 
 bool alpi_surface_is_pane(const alp_scene *scene, uint32_t surface)

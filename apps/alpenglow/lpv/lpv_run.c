@@ -2,9 +2,11 @@
 #include "lpv/lpv_run.h"
 
 #include "lighting.h"
+#include "views.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 enum { BLOCKERS_POINTS, BLOCKERS_VIEWS, BLOCKERS_OFF }; // the choices of --blockers
@@ -22,14 +24,18 @@ static int check_bounces(const command_line *a)
                            "1 or converge",
                            bounces->text);
     }
+    if (bounces->given && bounces->choice >= 0 &&
+        a->values[OPTION_BLOCKERS].choice == BLOCKERS_OFF) {
+        return usage_error(a->command, "--bounces converge: only blockers reflect light again; "
+                                       "leave it out with --blockers off");
+    }
     return EXIT_DONE;
 }
 
 int lpv_run_check(const command_line *a)
 {
-    if (a->command == COMMAND_SAMPLE && a->values[OPTION_SKY].given) {
-        return usage_error(a->command, "--sky: light propagation holds no sky; leave it out, or "
-                                       "give --with probes");
+    if (a->command != COMMAND_RENDER && a->values[OPTION_SKY].given) { // or it is background
+        return usage_error(a->command, "--sky: light propagation holds no sky; leave it out");
     }
     if (a->command == COMMAND_SAMPLE && a->values[OPTION_DIRECT].choice == 1) {
         return usage_error(a->command,
@@ -78,9 +84,17 @@ static alp_lpv_options make_options(const session *s, const command_line *a)
     o.iterations = (uint32_t)values[OPTION_ITERATIONS].whole; // auto: 0
     o.mode = values[OPTION_MODE].choice == 0 ? ALP_LPV_ACCURATE : ALP_LPV_CONFORMANCE;
     o.blockers = values[OPTION_BLOCKERS].choice != BLOCKERS_OFF;
-    o.bounces = lighting_bounces(a);
+    o.bounces = o.blockers ? lighting_bounces(a) : 1; // they are what reflects light again
     o.memory_limit = find_memory_limit();
     return o;
+}
+
+/// Width over height of the picture.
+static float find_aspect(const command_line *a)
+{
+    uint32_t width = 1, height = 1;
+    (void)resolution_read(a, &width, &height); // the command has read it before
+    return (float)width / (float)height;
 }
 
 static alp_lpv_scene_options make_frame(const command_line *a, const alp_lighting_options *lighting)
@@ -117,46 +131,65 @@ static void state_memory(const session *s, const alp_lpv_options *o)
     }
 }
 
-/// Who looks into the grids that follow.
-typedef struct viewer {
-    double eye[3];     // metres: the camera, or the nearest place in the bounds of the scene
-    double forward[3]; // unit, or 0
-} viewer;
-
-static viewer find_viewer(const session *s, const alp_camera *camera)
+/// Options of grids that follow a camera. @param forward out: the camera's way
+static alp_lpv_options fit_view(const session *s, const alp_lpv_options *o,
+                                const alp_camera *camera, double forward[3])
 {
-    const alp_scene_info info = alp_scene_get_info(s->scene);
-    double length = 0.0;
-    viewer v;
+    double eye[3];
     for (int k = 0; k < 3; k++) {
-        const double at = (double)camera->position[k];
-        v.forward[k] = (double)camera->target[k] - at;
-        v.eye[k] = fmin(fmax(at, (double)info.bounds_min[k]), (double)info.bounds_max[k]);
-        length += v.forward[k] * v.forward[k];
+        eye[k] = (double)camera->position[k];
+        forward[k] = (double)camera->target[k] - eye[k];
     }
-    for (int k = 0; k < 3; k++) {
-        v.forward[k] *= length > 0.0 ? 1.0 / sqrt(length) : 0.0;
-    }
-    return v;
+    return alp_lpv_options_for_view(s->scene, o->size[0], o->cascades, eye, forward);
 }
 
-/// Cell with which the coarsest grid holds the scene from where the viewer is; 1 m for a scene
-/// without size.
-static double fit_cell(const session *s, const viewer *v, uint32_t grid, uint32_t cascades)
+// --- warnings ------------------------------------------------------------------------------------
+
+static void warn_of_cell(session *s, const alp_lpv_options *o)
 {
-    const double ahead = 0.5; // alp_lpv_follow: centre - eye, in halves of the grid's side
     const alp_scene_info info = alp_scene_get_info(s->scene);
-    double half = 0.0;
+    double longest = 0.0;
+    char text[160];
     for (int k = 0; k < 3; k++) {
-        const double above = (double)info.bounds_max[k] - v->eye[k];
-        const double below = v->eye[k] - (double)info.bounds_min[k];
-        half = fmax(half, above / (1.0 + ahead * v->forward[k]));
-        half = fmax(half, below / (1.0 - ahead * v->forward[k]));
+        longest = fmax(longest, (double)info.bounds_max[k] - (double)info.bounds_min[k]);
     }
-    // Centres are rounded to cells: 3 cells make room on both sides.
-    const double cells = grid > 3 ? (double)grid - 3.0 : 1.0;
-    return half > 0.0 ? ldexp(2.0 * half / cells, 1 - (int)cascades) : 1.0;
+    if (o->cell > longest / 3.0) {
+        snprintf(text, sizeof text,
+                 "cells of %.3g m in a scene of %.3g m hold next to no shape of its light; give "
+                 "more cells or smaller ones (--grid, --cell)",
+                 o->cell, longest);
+        session_warn(s, "coarse-grid", "--grid", text);
+    }
 }
+
+/// Lamps and suns, in the file and in the options, have maps that are views.
+static void warn_of_views(session *s, const command_line *a, const lpv_run *run)
+{
+    const alp_lighting_options *l = &run->frame.lighting;
+    const bool lamps =
+        alp_scene_get_info(s->scene).lights > 0 || l->lamp_count > 0 || l->sun.illuminance > 0.0f;
+    if (a->values[OPTION_BLOCKERS].choice == BLOCKERS_VIEWS && !lamps &&
+        run->frame.camera == NULL) {
+        session_warn(s, "no-views", "--blockers",
+                     "nothing blocks light: there is no view, neither of a lamp nor of a camera; "
+                     "give --blockers points");
+    }
+}
+
+static void warn_of_darkness(session *s, const alp_lpv_report *r)
+{
+    if (r->lit == 0) {
+        session_warn(s, "no-light", "",
+                     "no light was injected: what lamps and suns meet is black, faces away or is "
+                     "not there");
+    } else if (r->lights == 0) {
+        session_warn(s, "no-light", "",
+                     "no light was injected: all lit surfaces lie outside of the grid; give more "
+                     "cells or larger ones (--grid, --cell)");
+    }
+}
+
+// --- the volume's life ---------------------------------------------------------------------------
 
 int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *lighting,
                  const alp_camera *camera, lpv_run *run)
@@ -164,7 +197,7 @@ int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *
     *run = (lpv_run){.session = s, .options = make_options(s, a), .frame = make_frame(a, lighting)};
     alp_lpv_options *o = &run->options;
     const bool follows = camera != NULL && o->cascades > 1;
-    viewer v = {0};
+    double forward[3];
     if (!has_light(s, lighting)) {
         return failure("nothing lights the scene; give --sun, --lamp or --spot (light propagation "
                        "holds no sky)");
@@ -172,18 +205,22 @@ int lpv_run_open(session *s, const command_line *a, const alp_lighting_options *
     if (camera != NULL) {
         run->camera = *camera;
         run->frame.camera = &run->camera;
-        v = find_viewer(s, camera);
+        run->frame.camera_aspect = find_aspect(a);
     }
-    if (follows && a->values[OPTION_CELL].choice >= 0) {
-        o->cell = fit_cell(s, &v, o->size[0], o->cascades);
+    if (follows) {
+        const alp_lpv_options fit = fit_view(s, o, camera, forward);
+        o->cell = a->values[OPTION_CELL].choice >= 0 ? fit.cell : o->cell;
+        memcpy(o->centre, fit.centre, sizeof o->centre);
     }
     state_memory(s, o);
+    warn_of_cell(s, o);
+    warn_of_views(s, a, run);
     alp_result result = alp_lpv_create(s->context, o, &run->lpv);
     if (result == ALP_OK) { // warns of lamps in walls
         result = alp_scene_examine(s->scene, &run->frame.lighting, session_progress, s);
     }
     if (result == ALP_OK && follows) {
-        result = alp_lpv_follow(run->lpv, v.eye, v.forward);
+        result = alp_lpv_follow(run->lpv, o->centre, forward);
     }
     return session_end(s, result);
 }
@@ -196,13 +233,23 @@ void lpv_run_close(lpv_run *run)
 
 alp_result lpv_run_follow(lpv_run *run, const alp_camera *camera)
 {
-    const viewer v = find_viewer(run->session, camera);
+    double forward[3];
+    const alp_lpv_options fit = fit_view(run->session, &run->options, camera, forward);
     run->camera = *camera;
     run->frame.camera = &run->camera;
-    return run->options.cascades > 1 ? alp_lpv_follow(run->lpv, v.eye, v.forward) : ALP_OK;
+    return run->options.cascades > 1 ? alp_lpv_follow(run->lpv, fit.centre, forward) : ALP_OK;
 }
 
 alp_result lpv_run_light(lpv_run *run, alp_lpv_report *report)
 {
-    return alp_lpv_light_scene(run->lpv, run->session->scene, &run->frame, report);
+    alp_lpv_report own;
+    const alp_result result = alp_lpv_light_scene(run->lpv, run->session->scene, &run->frame, &own);
+    if (result == ALP_OK && !run->judged) {
+        warn_of_darkness(run->session, &own);
+        run->judged = true;
+    }
+    if (result == ALP_OK && report != NULL) {
+        *report = own;
+    }
+    return result;
 }

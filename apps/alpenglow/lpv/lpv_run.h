@@ -13,6 +13,7 @@ typedef struct lpv_run {
     alp_lpv_options options;
     alp_lpv_scene_options frame; // of a frame of light
     alp_camera camera;           // borrowed by `frame`
+    bool judged;                 // warnings of the first frame were given
 } lpv_run;
 
 /// Refuses values and lights that light propagation has not.

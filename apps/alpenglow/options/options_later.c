@@ -11,7 +11,6 @@
 static const option rows[] = {
     LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_PROBES, "--split", "rooms", "the look-up's visibility keeps light in its room"),
-    LATER(IN_LPV, "--sky", NULL, "light propagation holds no sky"),
     LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
 };
 

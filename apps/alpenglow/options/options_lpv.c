@@ -15,7 +15,7 @@ static const option rows[] = {
      .maximum = 512,
      .unit = "cells",
      .initial = "32",
-     .help = "Cells along each side of a grid. Memory grows with the cube of N, to some 40 GB for "
+     .help = "Cells along each side of a grid. Memory grows with the cube of N, to some 45 GB for "
              "512."},
     {.id = OPTION_CELL,
      .commands = IN_LPV,
@@ -123,6 +123,13 @@ static const option rows[] = {
      .initial = "0",
      .help = "Mist in the bounds of the scene, of scattering coefficient S. It shows shafts of "
              "light from lamps and suns (--direct), and the light of the volume."},
+    {.id = OPTION_SKY,
+     .commands = IN_LPV,
+     .group = GROUP_LIGHT,
+     .kind = KIND_TEXT,
+     .name = "--sky",
+     .value = "SKY",
+     .help = "Refused: light propagation holds no sky."},
     {.id = OPTION_BOUNCES,
      .commands = IN_LPV,
      .group = GROUP_LIGHT,
@@ -135,7 +142,8 @@ static const option rows[] = {
      .initial = "converge",
      .help = "Number of reflections of light.\n"
              "1: lamps light surfaces, and these the rest.\n"
-             "converge: blockers reflect light again, as often as it reaches them."},
+             "converge: blockers reflect light again, as often as it reaches them. With --blockers "
+             "off there is 1."},
     {.id = OPTION_FRAMES,
      .commands = IN_LPV,
      .group = GROUP_WHAT,

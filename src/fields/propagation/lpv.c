@@ -9,108 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { ITERATIONS_MOST = 4096, CASCADE_ITERATIONS = 8 };
-/// Cells from the origin that a grid may lie at: a double holds a thousandth of one there.
-static const double FARTHEST = 1099511627776.0;
-static const double CELL_LEAST = 1e-6, CELL_MOST = 1e12; // metres
-/// Mean of the direction over the far face, and over a side face along the way and aside: the
-/// integrals of direction over solid angle, divided by it.
-static const float MEAN_FAR = 0.966914f, MEAN_ALONG = 0.799082f, MEAN_ASIDE = 0.518084f;
-
-alpi_lpv_scheme alpi_lpv_scheme_of(alp_lpv_mode mode)
-{
-    const float along = (float)ALP_LPV_ALONG, aside = (float)ALP_LPV_ASIDE;
-    switch (mode) {
-    case ALP_LPV_CONFORMANCE:
-        return (alpi_lpv_scheme){1.0f, along, aside, 0.0f, 1.0f, 1.0f, false};
-    case ALP_LPV_TRANSFER:
-        return (alpi_lpv_scheme){MEAN_FAR, MEAN_ALONG, MEAN_ASIDE, 0.0f, 1.0f, 1.0f, false};
-    default:
-        return (alpi_lpv_scheme){1.0f, along, aside, along, aside, (float)ALP_LPV_OPACITY, true};
-    }
-}
-
-// --- options -------------------------------------------------------------------------------------
-
-alp_lpv_options alp_lpv_options_default(void)
-{
-    return (alp_lpv_options){.struct_size = sizeof(alp_lpv_options),
-                             .size = {32, 32, 32},
-                             .cell = 0.25,
-                             .cascades = 1,
-                             .blockers = true,
-                             .bounces = ALP_BOUNCES_CONVERGE};
-}
-
-alp_lpv_options alp_lpv_options_for_scene(const alp_scene *scene, uint32_t grid, uint32_t cascades)
-{
-    alp_lpv_options o = alp_lpv_options_default();
-    const alp_scene_info info = alp_scene_get_info(scene);
-    double longest = 0.0;
-    for (int k = 0; k < 3; k++) {
-        const double low = (double)info.bounds_min[k], high = (double)info.bounds_max[k];
-        o.size[k] = grid;
-        o.centre[k] = 0.5 * (low + high);
-        longest = fmax(longest, high - low);
-    }
-    o.cascades = cascades;
-    // The centre is rounded to cells, by half a cell at most: 3 cells make room on both sides.
-    o.cell = grid > 3 ? longest / (double)(grid - 3) : longest;
-    o.cell = o.cell > 0.0 ? ldexp(o.cell, 1 - (int)cascades) : 1.0;
-    return o;
-}
-
-uint64_t alp_lpv_memory(const alp_lpv_options *o)
-{
-    const uint64_t cells = alpi_lpv_cells(o->size), nodes = alpi_lpv_nodes(o->size);
-    const uint64_t light = 2 * ALPI_LPV_ROWS * (cells + alpi_lpv_wide_cells(o->size));
-    const uint64_t blockers = (3 * ALPI_LPV_AXIS_ROWS + 2 * ALPI_LPV_NODE_TERMS) * nodes;
-    return o->cascades * sizeof(float) * (light + (o->blockers ? blockers : 0));
-}
-
-static alp_result check_options(alp_context *context, const alp_lpv_options *o)
-{
-    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
-    if (o->struct_size != sizeof *o) {
-        return alpi_fail(context, code, "lpv options are not from _default()");
-    }
-    if (!(o->cell >= CELL_LEAST && o->cell <= CELL_MOST)) {
-        return alpi_fail(context, code, "lpv: cells of %g m, need a size from %g to %g", o->cell,
-                         CELL_LEAST, CELL_MOST);
-    }
-    for (int k = 0; k < 3; k++) {
-        if (o->size[k] < 1 || o->size[k] > ALPI_LPV_SIDE_MOST) {
-            return alpi_fail(context, code, "lpv: a grid of %u cells along a side, need 1 to %d",
-                             o->size[k], ALPI_LPV_SIDE_MOST);
-        }
-        if (!isfinite(o->centre[k]) || fabs(o->centre[k]) > FARTHEST * o->cell) {
-            return alpi_fail(context, code, "lpv: centre %g, %g, %g is beyond 2^40 cells",
-                             o->centre[0], o->centre[1], o->centre[2]);
-        }
-    }
-    if (o->cascades < 1 || o->cascades > ALPI_LPV_CASCADES_MOST) {
-        return alpi_fail(context, code, "lpv: %u cascades, need 1 to %d", o->cascades,
-                         ALPI_LPV_CASCADES_MOST);
-    }
-    if (o->iterations > ITERATIONS_MOST) {
-        return alpi_fail(context, code, "lpv: %u iterations, need at most %d", o->iterations,
-                         ITERATIONS_MOST);
-    }
-    if ((int)o->mode < 0 || o->mode >= ALP_LPV_MODE_COUNT) {
-        return alpi_fail(context, code, "lpv: unknown mode %d", (int)o->mode);
-    }
-    if (o->bounces != 1 && o->bounces != ALP_BOUNCES_CONVERGE) {
-        return alpi_fail(context, code, "lpv: %u bounces, need 1 or ALP_BOUNCES_CONVERGE",
-                         o->bounces);
-    }
-    const uint64_t bytes = alp_lpv_memory(o);
-    if (o->memory_limit > 0 && bytes > o->memory_limit) {
-        return alpi_fail(context, ALP_ERROR_LIMIT,
-                         "lpv: the volume needs %.0f MB, the limit is %.0f MB; take fewer cells",
-                         (double)bytes / 1e6, (double)o->memory_limit / 1e6);
-    }
-    return ALP_OK;
-}
+enum { CASCADE_ITERATIONS = 8 };
 
 // --- life ----------------------------------------------------------------------------------------
 
@@ -146,7 +45,7 @@ alp_result alp_lpv_create(alp_context *context, const alp_lpv_options *options, 
     }
     *out = NULL;
     const alp_lpv_options o = options ? *options : alp_lpv_options_default();
-    ALP_TRY(check_options(context, &o));
+    ALP_TRY(alpi_lpv_check_options(context, &o));
     alp_lpv *lpv = ALPI_NEW(context, alp_lpv, 1);
     if (lpv == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -220,7 +119,7 @@ alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3], const double forwar
 {
     double most = 0.0, squares = 0.0;
     for (int k = 0; k < 3; k++) {
-        if (!(fabs(eye[k]) <= FARTHEST * lpv->options.cell)) {
+        if (!(fabs(eye[k]) <= ALPI_LPV_FARTHEST * lpv->options.cell)) {
             return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT,
                              "lpv: the eye at %g, %g, %g is beyond 2^40 cells", eye[0], eye[1],
                              eye[2]);

@@ -31,6 +31,9 @@ static inline float larger(float a, float b)
 
 // --- opacity -------------------------------------------------------------------------------------
 
+/// Opacity of the four nodes of a face from which more makes no difference. Its squares are finite.
+static const float AREA_MOST = 4096.0f;
+
 /// Low faces of the cells at (y, z) across an axis: the first row at x = 0.
 static float *faces_at(const alpi_lpv_grid *g, size_t y, size_t z, size_t axis)
 {
@@ -59,10 +62,11 @@ static void fill_axis(const alpi_lpv_grid *g, const alpi_lpv_scheme *s, uint32_t
         for (size_t t = 0; t < N; t++) {
             sum[t] = node[t] + node[to_b + t] + node[to_c + t] + node[to_b + to_c + t];
         }
-        const float k = (s->by_angle ? 0.5f : 0.25f) * s->opacity;
+        const float limit = sum[0] > AREA_MOST ? AREA_MOST / sum[0] : 1.0f;
+        const float k = (s->by_angle ? 0.5f : 0.25f) * s->opacity * limit;
         const float ba = k * sum[1 + axis], bb = k * sum[1 + b], bc = k * sum[1 + c];
         // Surfaces of one orientation stop A n·ω, and the rest stops half of all.
-        const float rest = s->opacity * sum[0] - sqrtf(ba * ba + bb * bb + bc * bc);
+        const float rest = s->opacity * limit * sum[0] - sqrtf(ba * ba + bb * bb + bc * bc);
         rows[x] = s->by_angle ? larger(0.5f * rest, 0.0f) : k * sum[0];
         rows[wide + x] = ba;
         rows[2 * wide + x] = bb;

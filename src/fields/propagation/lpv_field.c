@@ -106,11 +106,14 @@ static float find_damping(const float here[ALPI_LPV_TERMS], const float low[ALPI
                           const float high[ALPI_LPV_TERMS])
 {
     const float small = 0.3f; // of the light, a cell
-    float product = 0.0f, light = 0.0f, change = 0.0f;
+    float most = 0.0f, product = 0.0f, light = 0.0f, change = 0.0f;
     for (int t = 0; t < ALPI_LPV_TERMS; t++) {
-        const float d = high[t] - low[t];
-        product += here[t] * d;
-        light += here[t] * here[t];
+        most = fmaxf(most, fmaxf(fabsf(here[t]), fmaxf(fabsf(low[t]), fabsf(high[t]))));
+    }
+    for (int t = 0; t < ALPI_LPV_TERMS && most > 0.0f; t++) { // fourth powers stay within floats
+        const float l = here[t] / most, d = high[t] / most - low[t] / most;
+        product += l * d;
+        light += l * l;
         change += d * d;
     }
     const float share =

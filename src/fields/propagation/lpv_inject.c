@@ -126,6 +126,7 @@ static alp_result inject(alpi_lpv_injection *in, uint32_t first, uint32_t end)
         ALP_TRY(alpi_lpv_find_places(in, c));
         ALP_TRY(alpi_parallel_for(in->lpv->context, in->ends[2], 1, add_layers, in, NULL));
     }
+    alpi_lpv_count_lights(in);
     return ALP_OK;
 }
 
@@ -141,12 +142,25 @@ static alp_result check_cascade(const alp_lpv *lpv, uint32_t cascade, const char
     return ALP_OK;
 }
 
+/// @param needed array beside positions and normals that must be there, by its name
+static alp_result check_surfels(const alp_lpv *lpv, const alp_lpv_surfels *s, const char *what,
+                                const void *needed, const char *name)
+{
+    const char *missing = s->positions == NULL ? "positions"
+                          : s->normals == NULL ? "normals"
+                          : needed == NULL     ? name
+                                               : NULL;
+    if (s->count > 0 && missing != NULL) {
+        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: %s without %s", what,
+                         missing);
+    }
+    return ALP_OK;
+}
+
 alp_result alp_lpv_add_light(alp_lpv *lpv, uint32_t cascade, const alp_lpv_surfels *surfels)
 {
     ALP_TRY(check_cascade(lpv, cascade, "light"));
-    if (surfels->count > 0 && surfels->flux == NULL) {
-        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: light without flux");
-    }
+    ALP_TRY(check_surfels(lpv, surfels, "light", surfels->flux, "flux"));
     alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade};
     return inject(&in, cascade == ALP_LPV_ALL_CASCADES ? 0 : cascade, lpv->options.cascades);
 }
@@ -180,9 +194,7 @@ alp_result alp_lpv_add_blockers(alp_lpv *lpv, uint32_t cascade, const alp_lpv_su
                          "lpv: the volume was made without blockers");
     }
     ALP_TRY(check_cascade(lpv, cascade, "blockers"));
-    if (surfels->count > 0 && surfels->areas == NULL) {
-        return alpi_fail(lpv->context, ALP_ERROR_INVALID_ARGUMENT, "lpv: blockers without areas");
-    }
+    ALP_TRY(check_surfels(lpv, surfels, "blockers", surfels->areas, "areas"));
     alpi_lpv_injection in = {.lpv = lpv, .surfels = surfels, .cascade = cascade, .blockers = true};
     const uint32_t first = all ? 0 : cascade, end = all ? lpv->options.cascades : cascade + 1;
     ALP_TRY(inject(&in, first, end));
@@ -226,7 +238,7 @@ static void move_nodes(alpi_lpv_grid *g)
 
 static void begin(alp_lpv *lpv, bool keep)
 {
-    lpv->skipped = 0;
+    lpv->skipped = lpv->lit = lpv->lights = 0;
     for (uint32_t c = 0; c < lpv->options.cascades; c++) {
         alpi_lpv_grid *g = &lpv->grids[c];
         memset(g->injected, 0, ALPI_LPV_ROWS * alpi_lpv_cells(g->size) * sizeof *g->injected);

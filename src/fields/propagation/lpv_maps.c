@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { STREAM_TEXEL = 31 };
+static const float ASPECT_LEAST = 1e-5f, ASPECT_MOST = 1e5f; // of a camera's view
 /// Areas seen at a smaller cosine than this are taken as at it: they would be a few huge surfels.
 static const float LEAST_COSINE = 0.02f;
 
@@ -63,7 +64,7 @@ alp_lpv_surfels alpi_surfels_view(const alpi_surfels *s)
                              .radii = s->radii};
 }
 
-/// First surface of the object of surface `s`, of which surface s − 1 has the first surface `last`.
+/// First surface of the object of surface `s`. @param last the same of surface s − 1
 static uint32_t first_of_object(const alp_scene *scene, uint32_t s, uint32_t last)
 {
     const alpi_surface *a = &scene->surfaces[s], *b = &scene->surfaces[last];
@@ -154,6 +155,32 @@ alpi_map_view alpi_cone_view(vec3 eye, vec3 axis, float half, uint32_t size)
     v.right = vec3_scale(v.right, tanf(half));
     v.up = vec3_scale(v.up, tanf(half));
     return v;
+}
+
+alp_result alpi_camera_map_view(alp_context *context, const alp_camera *c, float aspect,
+                                uint32_t size, alpi_map_view *view)
+{
+    const alp_result code = ALP_ERROR_INVALID_ARGUMENT;
+    const vec3 none = {0.0f, 0.0f, 0.0f}, eye = vec3_load(c->position);
+    const vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c->target), eye), none);
+    const vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c->up)), none);
+    const bool fov_is_valid = c->vertical_fov > 0.0f && c->vertical_fov < (float)ALPI_PI;
+    if (!vec3_is_finite(eye) || !(vec3_length(right) > 0.0f) || !fov_is_valid) {
+        return alpi_fail(context, code,
+                         "lpv camera: its position must be finite and differ from the target, the "
+                         "view not along up, the field of view inside (0, pi)");
+    }
+    if (!(aspect >= ASPECT_LEAST && aspect <= ASPECT_MOST)) {
+        return alpi_fail(context, code, "lpv camera: an aspect of %g, need %g to %g",
+                         (double)aspect, (double)ASPECT_LEAST, (double)ASPECT_MOST);
+    }
+    const float half = tanf(0.5f * c->vertical_fov);
+    *view = (alpi_map_view){.origin = eye,
+                            .axis = forward,
+                            .right = vec3_scale(right, half * aspect),
+                            .up = vec3_scale(vec3_cross(right, forward), half),
+                            .size = size};
+    return ALP_OK;
 }
 
 // --- tracing -------------------------------------------------------------------------------------

@@ -50,6 +50,10 @@ alpi_map_view alpi_sun_view(const alp_scene *scene, vec3 travel, const double lo
 alpi_map_view alpi_cube_view(vec3 eye, uint32_t face, uint32_t size);
 /// A square view along an axis. @param half radians, below π/2
 alpi_map_view alpi_cone_view(vec3 eye, vec3 axis, float half, uint32_t size);
+/// The view of a camera. @param aspect width / height
+/// @return ALP_OK; INVALID_ARGUMENT: no place, no direction or no angle to look at, or no aspect
+alp_result alpi_camera_map_view(alp_context *context, const alp_camera *camera, float aspect,
+                                uint32_t size, alpi_map_view *view);
 
 /// Traces a map into surfels [first, first + size²).
 /// @param light index in `lighting` whose first reflection is the flux; ALPI_NONE: no flux

@@ -6,18 +6,22 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 enum { GRAIN = 4096 };
+/// Largest area of a surfel in faces of a cell, and flux in W and in W for each m² of a face: sums
+/// of 2^32 surfels over all steps stay finite.
+static const float FACES_MOST = 1e20f, RADIANCE_MOST = 1e20f;
 
 // --- what is usable ------------------------------------------------------------------------------
 
-static bool is_good(const float v[3], float least)
+static bool is_good(const float v[3], float least, float most)
 {
     bool good = true;
     for (int k = 0; k < 3; k++) {
-        good = good && isfinite(v[k]) && v[k] >= least;
+        good = good && isfinite(v[k]) && v[k] >= least && v[k] <= most;
     }
     return good;
 }
@@ -25,16 +29,24 @@ static bool is_good(const float v[3], float least)
 static bool is_usable(const alpi_lpv_injection *in, uint32_t i)
 {
     const alp_lpv_surfels *s = in->surfels;
-    const float *n = s->normals[i], anything = -HUGE_VALF;
+    const float *n = s->normals[i];
     const float squares = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    bool good = is_good(s->positions[i], anything) && squares > 0.98f && squares < 1.02f;
+    const float cell = (float)in->lpv->options.cell, face = cell * cell;
+    bool good = is_good(s->positions[i], -FLT_MAX, FLT_MAX) && squares > 0.98f && squares < 1.02f;
     if (in->blockers) {
-        good = good && isfinite(s->areas[i]) && s->areas[i] >= 0.0f;
-        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f));
+        good = good && s->areas[i] >= 0.0f && s->areas[i] <= FACES_MOST * face;
+        good = good && (s->albedo == NULL || is_good(s->albedo[i], 0.0f, 1.0f));
     } else {
-        good = good && is_good(s->flux[i], 0.0f);
+        good = good && is_good(s->flux[i], 0.0f, RADIANCE_MOST * fminf(face, 1.0f));
     }
     return good && (s->radii == NULL || isfinite(s->radii[i]));
+}
+
+/// Whether a surfel, which is usable, sends light.
+static bool has_flux(const alpi_lpv_injection *in, uint32_t i)
+{
+    const float *f = in->blockers ? NULL : in->surfels->flux[i];
+    return f != NULL && (f[0] > 0.0f || f[1] > 0.0f || f[2] > 0.0f);
 }
 
 // --- places --------------------------------------------------------------------------------------
@@ -126,6 +138,7 @@ static alp_result find_places(void *user, uint32_t begin, uint32_t end, uint32_t
     for (uint32_t i = begin; i < end; i++) {
         alpi_lpv_place *place = &in->lpv->places[i];
         place->held = place->usable && find_place(in, i, place);
+        place->lights |= place->held && has_flux(in, i);
     }
     return ALP_OK;
 }
@@ -179,8 +192,16 @@ alp_result alpi_lpv_begin_places(alpi_lpv_injection *in)
     ALP_TRY(alpi_parallel_for(lpv->context, count, GRAIN, find_usable, in, NULL));
     for (uint32_t i = 0; i < count; i++) {
         lpv->skipped += !lpv->places[i].usable;
+        lpv->lit += lpv->places[i].usable && has_flux(in, i);
     }
     return ALP_OK;
+}
+
+void alpi_lpv_count_lights(const alpi_lpv_injection *in)
+{
+    for (uint32_t i = 0; i < in->surfels->count; i++) {
+        in->lpv->lights += in->lpv->places[i].lights;
+    }
 }
 
 alp_result alpi_lpv_find_places(alpi_lpv_injection *in, uint32_t index)

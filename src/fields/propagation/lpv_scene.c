@@ -16,6 +16,7 @@ alp_lpv_scene_options alp_lpv_scene_options_default(void)
     return (alp_lpv_scene_options){.struct_size = sizeof(alp_lpv_scene_options),
                                    .lighting = alp_lighting_options_default(),
                                    .map_size = 256,
+                                   .camera_aspect = 1.0f,
                                    .points = 65536};
 }
 
@@ -24,6 +25,7 @@ typedef struct frame {
     const alp_lpv_scene_options *options;
     alpi_map_scene in;
     alpi_lighting *lighting;
+    alpi_map_view camera; // of options->camera, where it is not NULL
     alp_lpv_report report;
 } frame;
 
@@ -39,7 +41,6 @@ static alp_result add_map(frame *f, uint32_t cascade, const alpi_surfels *surfel
     }
     f->report.inject += injected - start;
     f->report.block += alpi_seconds() - injected;
-    f->report.lights += s.count;
     return ALP_OK;
 }
 
@@ -135,18 +136,12 @@ static alp_result add_emitters(frame *f)
 static alp_result find_blockers(frame *f, alpi_surfels *surfels)
 {
     const double start = alpi_seconds();
-    const alp_camera *camera = f->options->camera;
     if (f->options->points > 0) {
         ALP_TRY(alpi_spread_points(&f->in, surfels));
         f->report.trace += alpi_seconds() - start;
         return ALP_OK;
     }
-    const vec3 eye = vec3_load(camera->position);
-    const vec3 forward =
-        vec3_normalize_or(vec3_sub(vec3_load(camera->target), eye), (vec3){0.0f, 0.0f, -1.0f});
-    const alpi_map_view view =
-        alpi_cone_view(eye, forward, 0.5f * camera->vertical_fov, CAMERA_MAP);
-    return trace_view(f, &view, ALPI_NONE, 0, surfels);
+    return trace_view(f, &f->camera, ALPI_NONE, 0, surfels);
 }
 
 static alp_result add_blockers(frame *f)
@@ -197,6 +192,8 @@ static alp_result run_frame(frame *f, float **radii)
     const double start = alpi_seconds();
     ALP_TRY(alp_lpv_propagate(f->lpv));
     f->report.propagate = alpi_seconds() - start;
+    f->report.lit = f->lpv->lit;
+    f->report.lights = f->lpv->lights;
     add_up_flux(f->lpv, f->report.flux);
     return ALP_OK;
 }
@@ -229,6 +226,10 @@ alp_result alp_lpv_light_scene(alp_lpv *lpv, const alp_scene *scene,
     o.lighting.sky.kind = ALP_SKY_NONE;
     ALP_TRY(alpi_lighting_refuse_darkness(scene, &o.lighting));
     frame f = {.lpv = lpv, .options = &o, .in = {.scene = scene, .seed = o.seed}};
+    if (o.camera != NULL) {
+        ALP_TRY(
+            alpi_camera_map_view(lpv->context, o.camera, o.camera_aspect, CAMERA_MAP, &f.camera));
+    }
     alpi_tracer *tracer = NULL;
     ALP_TRY(alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     f.in.tracer = tracer;

@@ -97,9 +97,9 @@ ALWAYS_INLINE passed arrive(const row_work *w, reading r, uint32_t x, bool block
     return send(r, sign, light, o[0][f], o[1][f], o[2][f], o[3][f], o[4][f]);
 }
 
-/// Flux that blockers throw back of the light that leaves a cell by direction d.
-ALWAYS_INLINE float come_back(const row_work *w, reading r, uint32_t x, int d, size_t a, size_t b,
-                              size_t c)
+/// Flux that blockers reflect of the light that leaves a cell by direction d.
+ALWAYS_INLINE float reflected_flux(const row_work *w, reading r, uint32_t x, int d, size_t a,
+                                   size_t b, size_t c)
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
     const size_t s = w->light_step;
@@ -112,8 +112,9 @@ ALWAYS_INLINE float come_back(const row_work *w, reading r, uint32_t x, int d, s
     return w->albedo[d][x] * (FAR * met.far + SIDE * met.sides);
 }
 
-/// One channel of cells of a row. Each face's flux Φ becomes a lobe Φ/π (1/4 + n·ω/2); what comes
-/// back, one against the way that it went. Called with constants for each kind of step.
+/// One channel of cells of a row. Each face's flux Φ becomes a lobe Φ/π (1/4 + n·ω/2), and
+/// reflected flux becomes a lobe against the way that it went. Called with constants for each kind
+/// of step.
 /// @param next row 0 of the light of the next step   @param sum row 0 of the sum
 ALWAYS_INLINE void gather_row(const row_work *w, bool blocked, bool reflects, float *next,
                               float *sum)
@@ -151,9 +152,12 @@ ALWAYS_INLINE void gather_row(const row_work *w, bool blocked, bool reflects, fl
         vy += give_aside * (z0.c + z1.c);
         float i = quarter * (FAR * far + SIDE * sides);
         if (reflects) {
-            const float rx0 = come_back(w, r, x, 0, 1, 2, 3), rx1 = come_back(w, r, x, 1, 1, 2, 3);
-            const float ry0 = come_back(w, r, x, 2, 2, 3, 1), ry1 = come_back(w, r, x, 3, 2, 3, 1);
-            const float rz0 = come_back(w, r, x, 4, 3, 1, 2), rz1 = come_back(w, r, x, 5, 3, 1, 2);
+            const float rx0 = reflected_flux(w, r, x, 0, 1, 2, 3),
+                        rx1 = reflected_flux(w, r, x, 1, 1, 2, 3);
+            const float ry0 = reflected_flux(w, r, x, 2, 2, 3, 1),
+                        ry1 = reflected_flux(w, r, x, 3, 2, 3, 1);
+            const float rz0 = reflected_flux(w, r, x, 4, 3, 1, 2),
+                        rz1 = reflected_flux(w, r, x, 5, 3, 1, 2);
             i += quarter * ((rx0 + rx1) + (ry0 + ry1) + (rz0 + rz1));
             vx += half * (rx1 - rx0);
             vy += half * (ry1 - ry0);

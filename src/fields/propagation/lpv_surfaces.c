@@ -140,55 +140,76 @@ alp_result alpi_spread_points(const alpi_map_scene *in, alpi_surfels *surfels)
 
 // --- surfaces that shine -------------------------------------------------------------------------
 
-/// The point itself, and what its ray meets. A point stands for weight × area: flux π L area.
-static void shine(const point_job *job, uint32_t i)
+/// A point that shines, as the surface there is.
+typedef struct emitter_point {
+    vec3 corners[3], position, normal, flux;
+} emitter_point;
+
+/// A point stands for weight × area: flux π L area.
+static emitter_point find_emitter(const point_job *job, uint32_t i)
 {
     const alp_scene *scene = job->in->scene;
     const spread_point *p = &job->points[i];
-    alpi_surfels *s = job->surfels;
     const uint32_t key = alpi_random_key(job->in->seed, p->triangle, STREAM_POINT);
-    vec3 c[3];
+    emitter_point e;
     float b1, b2;
-    alpi_triangle_corners(scene, p->triangle, c);
+    alpi_triangle_corners(scene, p->triangle, e.corners);
+    const vec3 *c = e.corners;
     const bool both = alpi_surface_is_double_sided(scene, p->triangle);
-    const vec3 position = place_on(c, sample_place(key, p->number, both), &b1, &b2);
     const bool back = both && i % 2 == 1;
     const vec3 flat = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 1.0f, 0.0f});
-    const vec3 n = back ? vec3_scale(flat, -1.0f) : flat;
+    e.position = place_on(c, sample_place(key, p->number, both), &b1, &b2);
+    e.normal = back ? vec3_scale(flat, -1.0f) : flat;
     // Area of the triangle over its share of points, twice where only half of them see a side.
     const double area = triangle_area(scene, p->triangle) * job->step / p->weight;
-    const vec3 flux = vec3_scale(alpi_surface_emission(scene, p->triangle, b1, b2, n),
-                                 (float)(ALPI_PI * area * (both ? 2.0 : 1.0)));
-    vec3_store(s->positions[i], position);
-    vec3_store(s->normals[i], n);
-    vec3_store(s->flux[i], flux);
-    s->radii[i] = job->in->radii[scene->triangle_surface[p->triangle]];
+    e.flux = vec3_scale(alpi_surface_emission(scene, p->triangle, b1, b2, e.normal),
+                        (float)(ALPI_PI * area * (both ? 2.0 : 1.0)));
+    return e;
+}
 
+/// The surface that a ray from a point meets reflects its flux, as surfel i.
+static void reflect_flux(const point_job *job, const spread_point *p, const emitter_point *e,
+                         uint32_t i)
+{
+    const alp_scene *scene = job->in->scene;
+    alpi_surfels *s = job->surfels;
     vec3 t, b;
-    vec3_frame(n, &t, &b);
-    const uint32_t ray_key = alpi_random_key(job->in->seed, p->triangle, STREAM_RAY);
-    const vec3 d = alpi_warp_cosine_cone(alpi_sample_2d(ray_key, p->number), 1.0f);
-    const vec3 way = vec3_mad(vec3_mad(vec3_scale(n, d.z), d.x, t), d.y, b);
+    vec3_frame(e->normal, &t, &b);
+    const uint32_t key = alpi_random_key(job->in->seed, p->triangle, STREAM_RAY);
+    const vec3 d = alpi_warp_cosine_cone(alpi_sample_2d(key, p->number), 1.0f);
+    const vec3 way = vec3_mad(vec3_mad(vec3_scale(e->normal, d.z), d.x, t), d.y, b);
+    const float offset = alpi_receiver_offset(e->position, e->corners);
     alpi_rays rays;
     alpi_hits hits;
     alpi_rays_clear(&rays);
-    const vec3 origin = vec3_mad(position, alpi_receiver_offset(position, c), n);
-    alpi_rays_set(&rays, 0, origin, way, INFINITY);
+    alpi_rays_set(&rays, 0, vec3_mad(e->position, offset, e->normal), way, INFINITY);
     alpi_trace_nearest(job->in->tracer, &rays, 1u, (alpi_trace_filter){0}, &hits);
     bool behind;
     if (hits.triangle[0] == ALPI_NONE) {
         return;
     }
-    const uint32_t met = hits.triangle[0], j = i + job->count;
+    const uint32_t met = hits.triangle[0];
     const alpi_receiver_point hit = alpi_hit_point(scene, &hits, 0, way, &behind);
     if (behind && !alpi_surface_is_double_sided(scene, met)) {
         return;
     }
     const vec3 rho = alpi_surface_albedo(scene, met, hits.b1[0], hits.b2[0]);
-    vec3_store(s->positions[j], hit.position);
-    vec3_store(s->normals[j], hit.shading_normal);
-    vec3_store(s->flux[j], (vec3){rho.x * flux.x, rho.y * flux.y, rho.z * flux.z});
-    s->radii[j] = job->in->radii[scene->triangle_surface[met]];
+    vec3_store(s->positions[i], hit.position);
+    vec3_store(s->normals[i], hit.shading_normal);
+    vec3_store(s->flux[i], (vec3){rho.x * e->flux.x, rho.y * e->flux.y, rho.z * e->flux.z});
+    s->radii[i] = job->in->radii[scene->triangle_surface[met]];
+}
+
+/// The point itself, and what its ray meets.
+static void shine(const point_job *job, uint32_t i)
+{
+    alpi_surfels *s = job->surfels;
+    const emitter_point e = find_emitter(job, i);
+    vec3_store(s->positions[i], e.position);
+    vec3_store(s->normals[i], e.normal);
+    vec3_store(s->flux[i], e.flux);
+    s->radii[i] = 0.0f; // a small lamp gives all its light
+    reflect_flux(job, &job->points[i], &e, i + job->count);
 }
 
 static alp_result shine_all(void *user, uint32_t begin, uint32_t end, uint32_t worker)

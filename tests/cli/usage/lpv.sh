@@ -20,6 +20,8 @@ light --frames 0
 light --frames 1.5
 light --bounces 0
 light --bounces 2
+light --bounces converge --blockers off
+light --bounces=converge --blockers=views --cell 0
 light --sun-turn 1
 light --sun 0,45,1000 --sun-turn 361
 light --sun 0,45

@@ -11,4 +11,3 @@ for option in --bounces; do
     try render scene.glb -o out.png --with ao $option 1
 done
 try info scene.glb --pictures folder
-try lpv scene.glb --sky 1,1,1

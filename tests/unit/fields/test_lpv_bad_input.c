@@ -2,10 +2,10 @@
 // Light propagation and what hosts do wrong: options out of range, surfels with NaN, too little
 // memory.
 #include "field_scenes.h"
+#include "lpv_volumes.h"
 #include "test_small_bake.h"
 
 #include "base/memory.h"
-#include "fields/propagation/lpv.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -22,19 +22,12 @@ static void expect(alp_result result, alp_result code, const char *word)
 
 static alp_lpv_options small_options(uint32_t side)
 {
-    alp_lpv_options o = alp_lpv_options_default();
-    o.size[0] = o.size[1] = o.size[2] = side;
-    o.cell = 1.0;
-    return o;
+    return lpv_cube(side, 1.0);
 }
 
 static alp_lpv *open_small(uint32_t side)
 {
-    const alp_lpv_options o = small_options(side);
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, small_options(side));
 }
 
 // --- options -------------------------------------------------------------------------------------

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Surfaces that stop light: a thin wall, views that are merged or kept, and the light that blockers
-// throw back.
+// reflect.
 #include "field_scenes.h"
-
-#include "fields/propagation/lpv.h"
+#include "lpv_volumes.h"
 
 TEST_CONTEXT(2);
 
@@ -11,25 +10,19 @@ static const char *const mode_names[] = {"accurate", "conformance", "transfer"};
 
 static alp_lpv *open_volume(uint32_t side, alp_lpv_mode mode, uint32_t iterations, uint32_t bounces)
 {
-    alp_lpv_options o = alp_lpv_options_default();
-    o.size[0] = o.size[1] = o.size[2] = side;
-    o.cell = 1.0;
+    alp_lpv_options o = lpv_cube(side, 1.0);
     o.mode = mode;
     o.iterations = iterations;
     o.bounces = bounces;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, o);
 }
 
 static void add_light(alp_lpv *lpv, vec3 position, vec3 normal, float flux)
 {
-    const float p[1][3] = {{position.x, position.y, position.z}};
-    const float n[1][3] = {{normal.x, normal.y, normal.z}};
-    const float f[1][3] = {{flux, flux, flux}};
-    const alp_lpv_surfels s = {.count = 1, .positions = p, .normals = n, .flux = f};
-    ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
+    float p[3], n[3];
+    vec3_store(p, position);
+    vec3_store(n, normal);
+    lpv_add_one(context, lpv, p, n, flux);
 }
 
 /// Surfels that cover surfaces densely, 8 x 8 a cell.
@@ -89,19 +82,6 @@ static double mean_e(const alp_lpv *lpv, float x, float way, float half)
     return sum / 256.0;
 }
 
-static double flux_of(const alp_lpv *lpv, const float *light)
-{
-    const alpi_lpv_grid *g = &lpv->grids[0];
-    const size_t n = g->size[0], rows = (size_t)g->size[1] * g->size[2];
-    double sum = 0.0;
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t x = 0; x < n; x++) {
-            sum += (double)light[r * ALPI_LPV_ROWS * n + x];
-        }
-    }
-    return 4.0 * FIELD_PI * sum;
-}
-
 // --- a wall --------------------------------------------------------------------------------------
 
 /// Turns what covers surfaces about z.
@@ -157,27 +137,28 @@ static double leak(alp_lpv_mode mode, float at, float thick, double angle, uint3
     return behind / before;
 }
 
-/// At most 5 %. Nodes of walls at an angle cover faces in part, and walls at 45 degrees let most
-/// through.
+/// At most 5 % in the default mode. Nodes of walls at an angle cover faces in part, and walls at 45
+/// degrees let most through. Two bands of conformance let up to 8 % through.
 TEST(a_wall_of_one_cell_keeps_light_out)
 {
     static const double angles[5] = {0.0, 0.2, 0.4, 0.5, FIELD_PI / 4.0};
-    static const double most[5] = {.001, .01, .015, .02, .035};
+    static const double most[ALP_LPV_MODE_COUNT][5] = {
+        {.001, .01, .015, .02, .042}, {.03, .04, .05, .056, .078}, {.033, .042, .051, .058, .079}};
+    bool good = true;
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
         for (int a = 0; a < 5; a++) {
             double worst = 0.0;
-            for (int i = 0; i < 4; i++) { // wherever its faces lie between nodes
-                const uint32_t bounces = i % 2 != 0 ? 1u : ALP_BOUNCES_CONVERGE;
-                worst = fmax(worst,
-                             leak((alp_lpv_mode)mode, 0.25f * (float)i, 1.0f, angles[a], bounces));
+            for (int i = 0; i < 8; i++) { // wherever its faces lie between nodes
+                const uint32_t bounces = i < 4 ? 1u : ALP_BOUNCES_CONVERGE;
+                worst = fmax(worst, leak((alp_lpv_mode)mode, 0.25f * (float)(i % 4), 1.0f,
+                                         angles[a], bounces));
             }
             print_message("%s: a wall of one cell at %.2f rad lets %.2f %% through\n",
                           mode_names[mode], angles[a], 100.0 * worst);
-            if (mode == ALP_LPV_ACCURATE) {
-                assert_true(worst <= most[a]);
-            }
+            good = good && worst <= most[mode][a];
         }
     }
+    assert_true(good);
 }
 
 /// Flux beyond a wall after the second step, which is the first that blockers stop: of a light just
@@ -410,7 +391,7 @@ TEST(surfaces_at_halves_of_cells_choose_a_side)
     }
 }
 
-// --- light that blockers throw back --------------------------------------------------------------
+// --- light that blockers reflect ----------------------------------------------------------------
 
 /// A closed box of 8³ cells with one light, after so many steps.
 static alp_lpv *light_box(float albedo, bool at_wall, alp_lpv_mode mode, uint32_t steps)
@@ -483,7 +464,7 @@ TEST(blockers_make_no_light)
                 double last_sum = 1.0, last = 1.0;
                 for (uint32_t steps = 1; steps <= 64; steps *= 2) {
                     alp_lpv *lpv = light_box(albedo[i], wall != 0, (alp_lpv_mode)mode, steps);
-                    const double sum = flux_of(lpv, lpv->grids[0].sum);
+                    const double sum = lpv_flux(&lpv->grids[0], lpv->grids[0].sum);
                     // The mean of the later half of the steps.
                     const double now = (sum - last_sum) / (steps > 1 ? steps / 2 : 1);
                     assert_true(now >= 0.0 && now <= last + 1e-5);

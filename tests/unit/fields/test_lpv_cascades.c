@@ -2,37 +2,24 @@
 // Grids inside grids: which map lights which, no seams in space, and no jumps in time while the
 // camera moves.
 #include "field_scenes.h"
+#include "lpv_volumes.h"
 
 #include "base/random.h"
-#include "fields/propagation/lpv.h"
 
 TEST_CONTEXT(2);
 
 static alp_lpv *open_volume(uint32_t side, double cell, uint32_t cascades, bool blockers)
 {
-    alp_lpv_options o = alp_lpv_options_default();
-    o.size[0] = o.size[1] = o.size[2] = side;
-    o.cell = cell;
+    alp_lpv_options o = lpv_cube(side, cell);
     o.cascades = cascades;
     o.iterations = 8;
     o.blockers = blockers;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, o);
 }
 
 static double flux_in(const alp_lpv *lpv, uint32_t cascade)
 {
-    const alpi_lpv_grid *g = &lpv->grids[cascade];
-    const size_t n = g->size[0], rows = (size_t)g->size[1] * g->size[2];
-    double sum = 0.0;
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t x = 0; x < n; x++) {
-            sum += (double)g->injected[r * ALPI_LPV_ROWS * n + x];
-        }
-    }
-    return 4.0 * FIELD_PI * sum;
+    return lpv_flux(&lpv->grids[cascade], lpv->grids[cascade].injected);
 }
 
 // --- a floor under a sun -------------------------------------------------------------------------
@@ -188,6 +175,38 @@ TEST(a_single_grid_takes_all_light)
     ASSERT_OK(context, alp_lpv_add_light(lpv, 0, &s));
     ASSERT_NEAR(flux_in(lpv, 0), 0.5 * 16.0, 1e-4);
     alp_lpv_destroy(lpv);
+}
+
+/// Options for a view: the coarsest grid holds the scene from any place inside, and no more than it
+/// needs. A viewer outside counts as at the nearest place inside.
+TEST(grids_of_a_view_hold_the_scene)
+{
+    static const double eyes[4][3] = {
+        {0.3, 0.3, 0.3}, {0.0, 0.0, 0.0}, {0.5, 0.1, 0.4}, {9.0, -9.0, 0.2}};
+    static const double ways[4][3] = {
+        {0.0, 0.0, 0.0}, {0.0, 0.0, -7.0}, {1e200, 1e200, 1e200}, {-0.2, 0.5, 0.1}};
+    alp_scene *scene = test_load(context, "builtin:cornell");
+    const alp_scene_info info = alp_scene_get_info(scene);
+    for (int i = 0; i < 48; i++) {
+        const uint32_t cascades = 1 + (uint32_t)i / 16;
+        const double *way = ways[i % 4];
+        const alp_lpv_options o =
+            alp_lpv_options_for_view(scene, 20, cascades, eyes[i / 4 % 4], way);
+        alp_lpv *lpv = lpv_open(context, o);
+        double least = 1e30; // cells between the bounds and the grid's
+        ASSERT_OK(context, alp_lpv_follow(lpv, o.centre, way));
+        const alpi_lpv_grid *g = &lpv->grids[cascades - 1];
+        for (int k = 0; k < 3; k++) {
+            assert_true(o.centre[k] >= (double)info.bounds_min[k] &&
+                        o.centre[k] <= (double)info.bounds_max[k]);
+            const double low = (double)info.bounds_min[k] / g->cell - (double)g->corner[k];
+            const double high = (double)info.bounds_max[k] / g->cell - (double)g->corner[k];
+            least = fmin(least, fmin(low, 20.0 - high));
+        }
+        assert_true(least >= 1.0 - 1e-6 && least <= 2.0 + 1e-6);
+        alp_lpv_destroy(lpv);
+    }
+    alp_scene_destroy(scene);
 }
 
 // --- space ---------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // Light propagation against its slow twin, and the laws that it keeps: energy, symmetry, scaling,
 // moves of the grid, and its known reach.
 #include "lpv_twin.h"
+#include "lpv_volumes.h"
 
 #include "base/random.h"
 
@@ -17,20 +18,12 @@ static alp_lpv *make(const uint32_t size[3], alp_lpv_mode mode, bool blockers, u
     o.mode = mode;
     o.blockers = blockers;
     o.iterations = iterations;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    alp_lpv_begin(lpv);
-    return lpv;
+    return lpv_open(context, o);
 }
 
-/// One light of unit flux in cell 0, 0, 0 of the lattice, along an axis.
 static void add_one(alp_lpv *lpv, const float position[3], const float normal[3], float flux)
 {
-    const float fluxes[1][3] = {{flux, flux, flux}};
-    const float p[1][3] = {{position[0], position[1], position[2]}};
-    const float n[1][3] = {{normal[0], normal[1], normal[2]}};
-    const alp_lpv_surfels s = {.count = 1, .positions = p, .normals = n, .flux = fluxes};
-    ASSERT_OK(context, alp_lpv_add_light(lpv, ALP_LPV_ALL_CASCADES, &s));
+    lpv_add_one(context, lpv, position, normal, flux);
 }
 
 static float random_unit(uint32_t *state)
@@ -67,19 +60,6 @@ static void add_random(alp_lpv *lpv, uint32_t count, bool blockers)
             ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &s));
         }
     }
-}
-
-static double flux_of(const alp_lpv *lpv, const float *light)
-{
-    const alpi_lpv_grid *g = &lpv->grids[0];
-    const size_t n = g->size[0], rows = (size_t)g->size[1] * g->size[2] * 3;
-    double sum = 0.0;
-    for (size_t r = 0; r < rows; r++) {
-        for (size_t x = 0; x < n; x++) {
-            sum += (double)light[r * 4 * n + x];
-        }
-    }
-    return 4.0 * PI * sum;
 }
 
 /// Sum of intensities of one channel in a cell, by lattice index.
@@ -152,14 +132,11 @@ TEST(steps_keep_energy)
         alp_lpv *lpv = make(size, (alp_lpv_mode)mode, false, STEPS);
         lpv->wraps = true;
         add_random(lpv, 30, false);
-        const double before = flux_of(lpv, lpv->grids[0].injected);
+        const double before = lpv_flux(&lpv->grids[0], lpv->grids[0].injected);
         ASSERT_OK(context, alp_lpv_propagate(lpv));
-        const double after = flux_of(lpv, lpv->grids[0].light);
-        // `light` is scaled for the next step, which keeps p0 where nothing is clamped; the sum
-        // holds each of 65 states whole.
-        const double all = flux_of(lpv, lpv->grids[0].sum);
+        // The sum holds each of 65 states whole.
+        const double all = lpv_flux(&lpv->grids[0], lpv->grids[0].sum);
         ASSERT_NEAR(all / (before * (STEPS + 1)), 1.0, 1e-7 * STEPS / 2);
-        assert_true(after > 0.0);
         alp_lpv_destroy(lpv);
     }
     for (int mode = 0; mode < 2; mode++) {
@@ -169,7 +146,7 @@ TEST(steps_keep_energy)
         twin_open(&t, (const int[3]){16, 16, 16}, twin_scheme_of((alp_lpv_mode)mode), true);
         twin_take(&t, &lpv->grids[0]);
         double last = twin_flux(&t, t.light);
-        for (int i = 0; i < 8; i++) {
+        for (int i = 0; i < 64; i++) {
             twin_step(&t, false);
             const double now = twin_flux(&t, t.light);
             ASSERT_NEAR(now / last, 1.0, 1e-12);
@@ -203,46 +180,40 @@ TEST(light_reaches_as_far_as_is_known)
     }
 }
 
-/// Light of one lamp along x, seen after all 48 turns and mirrors of the cube.
+/// One oblique light, turned and mirrored in all 48 ways of the cube: its light turns with it.
 TEST(accurate_light_has_the_symmetry_of_the_cube)
 {
-    const uint32_t size[3] = {15, 15, 15};
-    alp_lpv *lpv = make(size, ALP_LPV_ACCURATE, false, 10);
-    const float centre[3] = {0.5f, 0.5f, 0.5f}; // of cell 0
-    for (int a = 0; a < 3; a++) {               // the same light along all six axes
-        for (int s = -1; s <= 1; s += 2) {
-            float n[3] = {0.0f, 0.0f, 0.0f}, p[3];
-            n[a] = (float)s;
-            for (int k = 0; k < 3; k++) {
-                p[k] = centre[k] - 0.4f * n[k];
-            }
-            add_one(lpv, p, n, 1.0f);
-        }
-    }
-    ASSERT_OK(context, alp_lpv_propagate(lpv));
-    // Cell 0 of the lattice holds the lights; the grid reaches from −7 to 7.
     static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                      {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-    const alpi_lpv_grid *g = &lpv->grids[0];
-    assert_int_equal(g->corner[0], -7);
-    const int at[3] = {1, 3, -5};
-    const float expected = *sum_at(lpv, at[0], at[1], at[2], 0);
-    assert_true(expected > 0.0f);
-    for (int i = 0; i < 48; i++) {
+    static const int at[3] = {1, 3, -5};
+    const uint32_t size[3] = {15, 15, 15}; // cell 0 of the lattice in the middle
+    const float place[3] = {0.2f, 0.1f, -0.15f}, normal[3] = {0.6f, 0.48f, 0.64f};
+    float expected[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+    for (int i = 0; i < 48; i++) { // the first: as it is
         const int *order = orders[i / 8];
-        int to[3], sign[3];
+        float p[3], n[3], sign[3];
+        int to[3];
         for (int k = 0; k < 3; k++) {
-            sign[k] = (i >> k & 1) != 0 ? -1 : 1;
-            to[k] = sign[k] * at[order[k]];
+            sign[k] = (i >> k & 1) != 0 ? -1.0f : 1.0f;
+            p[k] = 0.5f + sign[k] * place[order[k]];
+            n[k] = sign[k] * normal[order[k]];
+            to[k] = (int)sign[k] * at[order[k]];
         }
-        ASSERT_NEAR(*sum_at(lpv, to[0], to[1], to[2], 0) / expected, 1.0, 2e-6);
+        alp_lpv *lpv = make(size, ALP_LPV_ACCURATE, false, 10);
+        assert_int_equal(lpv->grids[0].corner[0], -7);
+        add_one(lpv, p, n, 1.0f);
+        ASSERT_OK(context, alp_lpv_propagate(lpv));
+        for (uint32_t t = 0; t < 4 && i == 0; t++) {
+            expected[t] = *sum_at(lpv, at[0], at[1], at[2], t);
+        }
+        assert_true(expected[0] > 0.0f);
+        ASSERT_NEAR(*sum_at(lpv, to[0], to[1], to[2], 0) / expected[0], 1.0, 2e-5);
         for (int k = 0; k < 3; k++) {
             const float v = *sum_at(lpv, to[0], to[1], to[2], (uint32_t)(1 + k));
-            const float w = *sum_at(lpv, at[0], at[1], at[2], (uint32_t)(1 + order[k]));
-            ASSERT_NEAR(v, (float)sign[k] * w, 2e-6f * expected);
+            ASSERT_NEAR(v, sign[k] * expected[1 + order[k]], 2e-5f * expected[0]);
         }
+        alp_lpv_destroy(lpv);
     }
-    alp_lpv_destroy(lpv);
 }
 
 TEST(light_scales_with_its_source)
@@ -261,70 +232,139 @@ TEST(light_scales_with_its_source)
     assert_true(values[1] == 1024.0f * values[0]); // a power of two: the same bits
 }
 
-/// Two opposed lights in one cell, against the sum of each alone, after 8 steps: RMS difference of
-/// p0 of the sums over its RMS. The clamp alone is not linear.
-TEST(superposition_departs_as_is_known)
+typedef double volume_sums[17 * 17 * 17 * TWIN_ROWS];
+
+/// Sums of the library over 8 steps, less what was injected, of lights along +z and −z in the
+/// middle cell.
+static void opposed_by_library(alp_lpv_mode mode, bool up, bool down, volume_sums sums)
 {
-    static const double known[3] = {.1273, .0928, 0.0};
-    const int n[3] = {17, 17, 17};
-    for (int mode = 0; mode < 3; mode++) { // the third: without the clamp
-        twin t[3];
-        twin_scheme scheme = twin_scheme_of(mode == 1 ? ALP_LPV_CONFORMANCE : ALP_LPV_ACCURATE);
-        scheme.clamps = mode < 2;
-        const int centre[3] = {8, 8, 8};
-        for (int i = 0; i < 3; i++) {
-            const double up[3] = {0.0, 0.0, 1.0}, down[3] = {0.0, 0.0, -1.0};
-            twin_open(&t[i], n, scheme, false);
-            if (i != 1) {
-                twin_give(twin_cell(&t[i], t[i].light, centre), 1.0, up);
-            }
-            if (i != 0) {
-                twin_give(twin_cell(&t[i], t[i].light, centre), 1.0, down);
-            }
-            for (int s = 0; s < 8; s++) {
-                twin_step(&t[i], false);
-            }
+    const uint32_t size[3] = {17, 17, 17};
+    const float along[3] = {0.0f, 0.0f, 1.0f}, against[3] = {0.0f, 0.0f, -1.0f};
+    const float low[3] = {0.5f, 0.5f, 0.0f}, high[3] = {0.5f, 0.5f, 1.0f};
+    alp_lpv *lpv = make(size, mode, false, 8);
+    if (up) {
+        add_one(lpv, low, along, 1.0f);
+    }
+    if (down) {
+        add_one(lpv, high, against, 1.0f);
+    }
+    ASSERT_OK(context, alp_lpv_propagate(lpv));
+    for (size_t i = 0; i < 17 * 17 * 17 * TWIN_ROWS; i++) {
+        sums[i] = (double)lpv->grids[0].sum[i] - (double)lpv->grids[0].injected[i];
+    }
+    alp_lpv_destroy(lpv);
+}
+
+/// The same of the twin without the clamp.
+static void opposed_unclamped(bool up, bool down, volume_sums sums)
+{
+    const int n[3] = {17, 17, 17}, centre[3] = {8, 8, 8};
+    const double along[3] = {0.0, 0.0, 1.0}, against[3] = {0.0, 0.0, -1.0};
+    twin_scheme scheme = twin_scheme_of(ALP_LPV_ACCURATE);
+    twin t;
+    scheme.clamps = false;
+    twin_open(&t, n, scheme, false);
+    for (int c = 0; c < 3; c++) {
+        double *p = twin_cell(&t, t.light, centre) + 4 * c;
+        if (up) {
+            twin_give(p, 1.0, along);
         }
-        double apart = 0.0, all = 0.0;
-        for (size_t i = 0; i < twin_cells(&t[0]) * TWIN_ROWS; i += 4) {
-            const double d = t[2].sum[i] - t[0].sum[i] - t[1].sum[i];
-            apart += d * d;
-            all += t[2].sum[i] * t[2].sum[i];
-        }
-        ASSERT_NEAR(sqrt(apart / all), known[mode], mode < 2 ? 5e-4 : 1e-14);
-        for (int i = 0; i < 3; i++) {
-            twin_close(&t[i]);
+        if (down) {
+            twin_give(p, 1.0, against);
         }
     }
+    for (int s = 0; s < 8; s++) {
+        twin_step(&t, false);
+    }
+    memcpy(sums, t.sum, sizeof(volume_sums));
+    twin_close(&t);
+}
+
+/// Two opposed lights in one cell, against the sum of each alone, over 8 steps. The clamp alone is
+/// not linear. Norms of the difference over that of both, of p0: by squares, and the largest. The
+/// oracle states 18.7 % and 12.6 %, and no norm: none of these gives both.
+TEST(superposition_departs_as_is_known)
+{
+    static volume_sums sums[3];
+    static const double known[3] = {.1273, .0928, 0.0};
+    for (int mode = 0; mode < 3; mode++) { // the third: without the clamp
+        for (int i = 0; i < 3; i++) {
+            if (mode < 2) {
+                opposed_by_library((alp_lpv_mode)mode, i != 1, i != 0, sums[i]);
+            } else {
+                opposed_unclamped(i != 1, i != 0, sums[i]);
+            }
+        }
+        double squares[2] = {0.0, 0.0}, most[2] = {0.0, 0.0};
+        for (size_t i = 0; i < 17 * 17 * 17 * TWIN_ROWS; i++) {
+            const double parts[2] = {sums[2][i] - sums[0][i] - sums[1][i], sums[2][i]};
+            // [channel × 4 + term][x], or [x][channel × 4 + term] of the twin
+            const bool is_p0 = mode < 2 ? i / 17 % 4 == 0 : i % 4 == 0;
+            for (int k = 0; k < 2 && is_p0; k++) {
+                squares[k] += parts[k] * parts[k];
+                most[k] = fmax(most[k], fabs(parts[k]));
+            }
+        }
+        const double departure = sqrt(squares[0] / squares[1]);
+        print_message("mode %d departs by %.2f %%, at most by %.2f %%\n", mode, 100.0 * departure,
+                      100.0 * most[0] / most[1]);
+        ASSERT_NEAR(departure, known[mode], mode < 2 ? 5e-4 : 1e-14);
+    }
+}
+
+/// E at points of a grid whose centre is moved by whole cells.
+static void light_moved(alp_lpv_mode mode, const double eye[3], float (*e)[3])
+{
+    enum { POINTS = 60 };
+    const uint32_t size[3] = {24, 24, 24};
+    const double nowhere[3] = {0.0, 0.0, 0.0};
+    const float p[3] = {0.3f, 0.4f, 0.2f}, n[3] = {0.0f, 0.8f, 0.6f};
+    const float area = 0.8f, q[1][3] = {{1.1f, 1.9f, 0.3f}}, m[1][3] = {{0.0f, -1.0f, 0.0f}};
+    const alp_lpv_surfels wall = {.count = 1, .positions = q, .normals = m, .areas = &area};
+    alp_lpv *lpv = make(size, mode, true, 6);
+    float at[POINTS][3], normals[POINTS][3];
+    uint32_t state = 3;
+    for (int i = 0; i < POINTS; i++) {
+        float squares = 0.0f;
+        for (int k = 0; k < 3; k++) {
+            at[i][k] = 8.0f * (random_unit(&state) - 0.5f);
+            normals[i][k] = random_unit(&state) - 0.5f;
+            squares += normals[i][k] * normals[i][k];
+        }
+        for (int k = 0; k < 3; k++) {
+            normals[i][k] /= sqrtf(squares);
+        }
+    }
+    ASSERT_OK(context, alp_lpv_follow(lpv, eye, nowhere));
+    alp_lpv_begin(lpv);
+    add_one(lpv, p, n, 1.0f);
+    ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &wall));
+    ASSERT_OK(context, alp_lpv_propagate(lpv));
+    alp_field *field = NULL;
+    ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
+    alp_field_irradiance(field, POINTS, (const float(*)[3])at, (const float(*)[3])normals, e);
+    alp_field_destroy(field);
+    alp_lpv_destroy(lpv);
 }
 
 /// A grid that lies elsewhere by whole cells holds the same light at the same places.
 TEST(whole_cells_do_not_matter)
 {
-    const uint32_t size[3] = {24, 24, 24};
-    float values[2];
-    for (int i = 0; i < 2; i++) {
-        alp_lpv *lpv = make(size, ALP_LPV_ACCURATE, true, 4);
-        const double eye[3] = {i * 3.0, i * -2.0, i * 1.0}, nowhere[3] = {0.0, 0.0, 0.0};
-        ASSERT_OK(context, alp_lpv_follow(lpv, eye, nowhere));
-        alp_lpv_begin(lpv);
-        const float p[3] = {0.3f, 0.4f, 0.2f}, n[3] = {0.0f, 1.0f, 0.0f};
-        const float area = 0.8f, q[1][3] = {{1.1f, 1.9f, 0.3f}}, m[1][3] = {{0.0f, -1.0f, 0.0f}};
-        const alp_lpv_surfels wall = {.count = 1, .positions = q, .normals = m, .areas = &area};
-        add_one(lpv, p, n, 1.0f);
-        ASSERT_OK(context, alp_lpv_add_blockers(lpv, ALP_LPV_ALL_CASCADES, &wall));
-        ASSERT_OK(context, alp_lpv_propagate(lpv));
-        alp_field *field = NULL;
-        ASSERT_OK(context, alp_field_create_lpv(lpv, &field));
-        const float at[1][3] = {{0.9f, 2.7f, 1.4f}}, normal[1][3] = {{0.0f, -1.0f, 0.0f}};
-        float e[1][3];
-        alp_field_irradiance(field, 1, at, normal, e);
-        values[i] = e[0][0];
-        alp_field_destroy(field);
-        alp_lpv_destroy(lpv);
+    enum { POINTS = 60 };
+    static const double eyes[3][3] = {{0.0, 0.0, 0.0}, {3.0, -2.0, 1.0}, {-1.0, 4.0, -3.0}};
+    for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
+        float e[3][POINTS][3], largest = 0.0f;
+        for (int i = 0; i < 3; i++) {
+            light_moved((alp_lpv_mode)mode, eyes[i], e[i]);
+        }
+        for (int i = 0; i < POINTS; i++) {
+            largest = fmaxf(largest, e[0][i][0]);
+        }
+        assert_true(largest > 0.0f);
+        for (int i = 0; i < 2 * POINTS; i++) {
+            ASSERT_NEAR(e[1 + i / POINTS][i % POINTS][0], e[0][i % POINTS][0], 1e-6f * largest);
+        }
     }
-    assert_true(values[0] > 0.0f);
-    ASSERT_NEAR(values[1] / values[0], 1.0, 1e-6);
 }
 
 /// A closed box whose walls emit the radiance 1, at its centre: E = π there.
@@ -356,4 +396,29 @@ TEST(a_closed_box_is_as_bright_as_is_known)
     ASSERT_NEAR(box_centre(8, ALP_LPV_CONFORMANCE, 64), 1.44, 5e-3);
     ASSERT_NEAR(box_centre(8, ALP_LPV_ACCURATE, 64), .90, 5e-3);
     ASSERT_NEAR(box_centre(16, ALP_LPV_ACCURATE, 192), .86, 5e-3);
+    ASSERT_NEAR(box_centre(32, ALP_LPV_ACCURATE, 700), .84, 5e-3);
+}
+
+/// Mean direction over solid angle of faces of the next cell, by fine sums.
+TEST(mean_directions_are_exact)
+{
+    enum { FINE = 400 };
+    double far[2] = {0.0, 0.0}, side[3] = {0.0, 0.0, 0.0}; // the solid angle, and integrals
+    for (int i = 0; i < FINE * FINE; i++) {
+        const double a = (i % FINE + 0.5) / FINE - 0.5, b = (i / FINE + 0.5) / FINE - 0.5;
+        const double s = a * a + b * b + 2.25, f = 1.5 / (s * sqrt(s)) / (FINE * FINE);
+        const double x = a + 1.0, t = x * x + b * b + 0.25;
+        const double g = 0.5 / (t * sqrt(t)) / (FINE * FINE);
+        far[0] += f;
+        far[1] += f * 1.5 / sqrt(s);
+        side[0] += g;
+        side[1] += g * x / sqrt(t);
+        side[2] += g * 0.5 / sqrt(t);
+    }
+    ASSERT_NEAR(far[0], ALP_LPV_FAR, 1e-6);
+    ASSERT_NEAR(side[0], ALP_LPV_SIDE, 1e-5);
+    ASSERT_NEAR(far[1] / far[0], ALP_LPV_MEAN_FAR, 1e-6);
+    ASSERT_NEAR(far[1] / far[0], 2.0 * acos(9.0 / 11.0) / sqrt(10.0) / ALP_LPV_FAR, 1e-6);
+    ASSERT_NEAR(side[1] / side[0], ALP_LPV_MEAN_ALONG, 1e-6);
+    ASSERT_NEAR(side[2] / side[0], ALP_LPV_MEAN_ASIDE, 1e-6);
 }

@@ -2,8 +2,7 @@
 // Light propagation in scenes: flux of lamps against closed forms, surfaces of all kinds, and the
 // same bits for any number of workers.
 #include "field_scenes.h"
-
-#include "fields/propagation/lpv.h"
+#include "lpv_volumes.h"
 
 #include <stdio.h>
 
@@ -26,14 +25,10 @@ static alp_scene *floor_scene(float side, vec3 albedo, vec3 emission)
 
 static alp_lpv *open_volume(uint32_t side, double cell, uint32_t cascades)
 {
-    alp_lpv_options o = alp_lpv_options_default();
-    o.size[0] = o.size[1] = o.size[2] = side;
-    o.cell = cell;
+    alp_lpv_options o = lpv_cube(side, cell);
     o.cascades = cascades;
     o.iterations = 2;
-    alp_lpv *lpv = NULL;
-    ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    return lpv;
+    return lpv_open(context, o);
 }
 
 static alp_lpv_scene_options sun_from(double azimuth, double elevation, float illuminance)
@@ -47,7 +42,7 @@ static alp_lpv_scene_options sun_from(double azimuth, double elevation, float il
 }
 
 /// Lights the scene and gives the flux in the coarsest grid.
-static vec3 flux_in(alp_lpv *lpv, const alp_scene *scene, const alp_lpv_scene_options *options)
+static vec3 light_up(alp_lpv *lpv, const alp_scene *scene, const alp_lpv_scene_options *options)
 {
     alp_lpv_report report;
     ASSERT_OK(context, alp_lpv_light_scene(lpv, scene, options, &report));
@@ -78,7 +73,7 @@ TEST(a_sun_on_a_floor_has_its_flux)
         for (int i = 0; i < 3; i++) {
             alp_lpv *lpv = open_volume(16, 0.5, cascades);
             const alp_lpv_scene_options o = sun_from(0.7 * i, elevations[i], 10.0f);
-            const vec3 flux = flux_in(lpv, scene, &o);
+            const vec3 flux = light_up(lpv, scene, &o);
             const double met = 10.0 * sin(elevations[i]) * 16.0;
             ASSERT_NEAR((double)flux.x / (0.5 * met), 1.0, 0.01);
             ASSERT_NEAR((double)flux.y / (0.25 * met), 1.0, 0.01);
@@ -101,7 +96,7 @@ TEST(maps_reach_the_borders_of_their_grids)
         ASSERT_OK(context, alp_lpv_follow(lpv, eye, nowhere));
         alp_lpv_scene_options o = sun_from(0.1, i % 2 == 0 ? FIELD_PI / 2.0 : 1.0, 10.0f);
         o.map_size = 48; // texels of a third of a cell
-        const vec3 flux = flux_in(lpv, scene, &o);
+        const vec3 flux = light_up(lpv, scene, &o);
         const double met = 10.0 * sin((double)o.lighting.sun.elevation) * 64.0;
         ASSERT_NEAR((double)flux.x / (0.5 * met), 1.0, 0.007);
         alp_lpv_destroy(lpv);
@@ -121,7 +116,7 @@ TEST(texels_stay_where_they_are)
     for (int i = 0; i < 2; i++) {
         const double eye[3] = {1.5 * i, 0.0, -1.0 * i}, nowhere[3] = {0.0, 0.0, 0.0};
         ASSERT_OK(context, alp_lpv_follow(lpv, eye, nowhere));
-        (void)flux_in(lpv, scene, &o);
+        (void)light_up(lpv, scene, &o);
         const alpi_lpv_grid *g = &lpv->grids[0];
         if (i == 0) {
             memcpy(before, g->injected, sizeof before);
@@ -164,7 +159,7 @@ TEST(a_spot_on_a_floor_has_its_flux)
         o.lighting.lamps = &lamp;
         o.lighting.lamp_count = 1;
         alp_lpv *lpv = open_volume(20, 0.5, 1);
-        const vec3 flux = flux_in(lpv, scene, &o);
+        const vec3 flux = light_up(lpv, scene, &o);
         // ∫ over the cone of ((cos θ − cos outer)/(cos inner − cos outer))², clamped.
         const double ci = cos((double)inner[i]), co = cos((double)outer[i]);
         const double met = 2.0 * FIELD_PI * 3.0 * ((1.0 - ci) + (ci - co) / 3.0);
@@ -186,7 +181,7 @@ TEST(a_point_light_on_a_floor_has_its_flux)
         o.lighting.lamps = &lamp;
         o.lighting.lamp_count = 1;
         alp_lpv *lpv = open_volume(20, 0.5, 1);
-        const vec3 flux = flux_in(lpv, scene, &o);
+        const vec3 flux = light_up(lpv, scene, &o);
         const double d = (double)lamp.position[1], h = 4.0;
         const double met = 3.0 * 4.0 * atan(h * h / (d * sqrt(2.0 * h * h + d * d)));
         ASSERT_NEAR((double)flux.x / (0.5 * met), 1.0, 0.01);
@@ -217,7 +212,7 @@ TEST(a_shining_quad_has_its_flux)
     const alp_lpv_options o = alp_lpv_options_for_scene(scene, 20, 1);
     alp_lpv *lpv = NULL;
     ASSERT_OK(context, alp_lpv_create(context, &o, &lpv));
-    const vec3 flux = flux_in(lpv, scene, NULL);
+    const vec3 flux = light_up(lpv, scene, NULL);
     ASSERT_NEAR((double)flux.x, FIELD_PI * 2.0 * 0.5 * 1.6, 0.01 * FIELD_PI * 1.6);
     ASSERT_NEAR((double)flux.y, FIELD_PI * 4.0 * 0.5 * 1.3, 0.01 * FIELD_PI * 2.6);
     ASSERT_NEAR((double)flux.z, FIELD_PI * 0.5 * 0.5 * 1.9, 0.01 * FIELD_PI * 0.475);
@@ -232,7 +227,7 @@ TEST(a_double_sided_lamp_shines_to_both_sides)
     for (int both = 0; both < 2; both++) {
         scene->materials[0].double_sided = both != 0;
         alp_lpv *lpv = open_volume(16, 1.0, 1);
-        const vec3 flux = flux_in(lpv, scene, NULL);
+        const vec3 flux = light_up(lpv, scene, NULL);
         ASSERT_NEAR((double)flux.x / (FIELD_PI * 64.0), both != 0 ? 2.0 : 1.0, 1e-3);
         const float *injected = lpv->grids[0].injected;
         for (size_t z = 5; z < 11; z++) { // beside its border, which is shared with cells outside
@@ -269,7 +264,7 @@ TEST(small_double_sided_lamps_shine_to_both_sides)
     o.map_size = 32; // 1024 points on 1152 triangles
     o.points = 1024;
     alp_lpv *lpv = open_volume(16, 1.0, 1);
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(sum_of(lpv, 0, 2) / sum_of(lpv, 0, 0), 0.0, 0.1); // upwards less downwards
     double along = 0.0, all = 0.0;
     for (size_t i = 0; i < alpi_lpv_nodes(lpv->grids[0].size); i++) {
@@ -291,7 +286,7 @@ TEST(backs_reflect_where_they_are_double_sided)
     for (int both = 0; both < 2; both++) {
         scene->materials[0].double_sided = both != 0;
         alp_lpv *lpv = open_volume(16, 0.5, 1);
-        const vec3 flux = flux_in(lpv, scene, &o);
+        const vec3 flux = light_up(lpv, scene, &o);
         const double met = 10.0 * sin(1.0) * 16.0;
         ASSERT_NEAR((double)flux.x, both != 0 ? 0.5 * met : 0.0, 0.005 * met);
         ASSERT_NEAR(sum_of(lpv, 0, 2), -2.0 * sum_of(lpv, 0, 0), 1e-4);
@@ -322,7 +317,7 @@ TEST(mirrored_surfaces_reflect_on_their_front)
     assert_true(scene->surfaces[0].mirrored);
     alp_lpv *lpv = open_volume(16, 0.5, 1);
     const alp_lpv_scene_options o = sun_from(0.3, 1.0, 10.0f);
-    const vec3 flux = flux_in(lpv, scene, &o);
+    const vec3 flux = light_up(lpv, scene, &o);
     ASSERT_NEAR((double)flux.x / (0.5 * 10.0 * sin(1.0) * 8.0), 1.0, 0.01);
     ASSERT_NEAR(sum_of(lpv, 0, 2) / sum_of(lpv, 0, 0), 2.0, 1e-5);
     alp_lpv_destroy(lpv);
@@ -344,7 +339,7 @@ TEST(small_objects_are_left_out_of_coarse_grids)
     alp_lpv *lpv = open_volume(16, 0.5, 2);
     alp_lpv_scene_options o = sun_from(0.0, FIELD_PI / 2.0, 10.0f);
     o.map_size = 512;
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     const double floor_flux = 0.01 * 10.0 * (16.0 - 0.09), cube_flux = 0.9 * 10.0 * 0.09;
     ASSERT_NEAR(4.0 * FIELD_PI * sum_of(lpv, 0, 0), floor_flux + cube_flux, 0.03 * cube_flux);
     ASSERT_NEAR(4.0 * FIELD_PI * sum_of(lpv, 1, 0), floor_flux, 0.03 * cube_flux);
@@ -370,15 +365,15 @@ TEST(blockers_have_the_area_of_their_surfaces)
     alp_scene *scene = floor_scene(4.0f, (vec3){0.5f, 0.5f, 0.5f}, (vec3){1.0f, 1.0f, 1.0f});
     alp_lpv *lpv = open_volume(16, 0.5, 1);
     alp_lpv_scene_options o = alp_lpv_scene_options_default();
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(blocked_area(lpv), 16.0, 1e-3); // of points
     o.points = 0;
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(blocked_area(lpv), 0.0, 0.0); // no view
     const alp_camera camera = {
         .position = {1.0f, 5.0f, 2.0f}, .up = {0.0f, 0.0f, -1.0f}, .vertical_fov = 1.2f};
     o.camera = &camera;
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(blocked_area(lpv), 16.0, 0.16); // of a camera that sees all of it
     alp_lpv_destroy(lpv);
     alp_scene_destroy(scene);
@@ -386,7 +381,7 @@ TEST(blockers_have_the_area_of_their_surfaces)
     lpv = open_volume(16, 0.5, 1);
     o = sun_from(0.5, 0.6, 1.0f);
     o.points = 0;
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(blocked_area(lpv), 16.0, 0.16); // of a sun's map
     alp_lpv_destroy(lpv);
     alp_scene_destroy(scene);
@@ -400,7 +395,7 @@ TEST(a_double_sided_floor_blocks_both_ways)
     alp_lpv *lpv = open_volume(16, 1.0, 1);
     alp_lpv_scene_options o = sun_from(0.5, 0.6, 1.0f);
     o.points = 65536;
-    (void)flux_in(lpv, scene, &o);
+    (void)light_up(lpv, scene, &o);
     ASSERT_NEAR(blocked_area(lpv), 128.0, 1e-2);
     for (size_t z = 5; z < 12; z++) {
         for (size_t x = 5; x < 12; x++) {

@@ -90,21 +90,44 @@ TEST(the_furnace_stays_two_in_any_medium)
 }
 
 /// Specks at two corners of a box of air, 2 m long. The camera looks between them, along z.
-static alp_scene *make_air(void)
+static void add_specks(alpi_builder *b)
 {
     const vec3 corners[2] = {{-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}};
+    const uint32_t black = alpi_builder_material(b, "black", NO_EMISSION, NO_EMISSION);
+    alpi_builder_surface(b, "specks", black);
+    for (int i = 0; i < 2; i++) {
+        const float inside = i == 0 ? 1e-3f : -1e-3f;
+        const vec3 other = vec3_mad(corners[i], inside, (vec3){1, 1, 1});
+        alpi_builder_box(b, vec3_min(corners[i], other), vec3_max(corners[i], other),
+                         ALPI_FACE_ALL);
+    }
+    alpi_builder_camera(b, (vec3){0.0f, 0.0f, 5.0f}, (vec3){0.0f, 0.0f, 0.0f}, 4e-5f);
+}
+
+static alp_scene *make_air(void)
+{
     alp_scene *scene = NULL;
     alpi_builder b;
     alpi_builder_start(&b, context, "air");
-    const uint32_t black = alpi_builder_material(&b, "black", NO_EMISSION, NO_EMISSION);
-    alpi_builder_surface(&b, "specks", black);
-    for (int i = 0; i < 2; i++) {
-        const float inside = i == 0 ? 1e-3f : -1e-3f;
-        alpi_builder_box(&b, vec3_min(corners[i], vec3_mad(corners[i], inside, (vec3){1, 1, 1})),
-                         vec3_max(corners[i], vec3_mad(corners[i], inside, (vec3){1, 1, 1})),
-                         ALPI_FACE_ALL);
-    }
-    alpi_builder_camera(&b, (vec3){0.0f, 0.0f, 5.0f}, (vec3){0.0f, 0.0f, 0.0f}, 4e-5f);
+    add_specks(&b);
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    return scene;
+}
+
+/// The same with a pane across its middle, at z = 0.
+static alp_scene *make_air_with_pane(double alpha, const double color[3])
+{
+    const vec3 c = {(float)color[0], (float)color[1], (float)color[2]};
+    alp_scene *scene = NULL;
+    alpi_builder b;
+    alpi_builder_start(&b, context, "air behind a pane");
+    add_specks(&b);
+    const uint32_t pane = alpi_builder_material(&b, "pane", c, NO_EMISSION);
+    b.scene->materials[pane].alpha_mode = ALPI_ALPHA_BLEND;
+    b.scene->materials[pane].base_color[3] = (float)alpha;
+    alpi_builder_surface(&b, "pane", pane);
+    alpi_builder_quad(
+        &b, (const vec3[4]){{-.1f, -.1f, 0}, {.1f, -.1f, 0}, {.1f, .1f, 0}, {-.1f, .1f, 0}});
     ASSERT_OK(context, alpi_builder_finish(&b, &scene));
     return scene;
 }
@@ -165,12 +188,46 @@ TEST(a_lamp_lights_air_by_its_closed_form)
     alp_scene_destroy(scene);
 }
 
+/// A pane of colour c and alpha a in the middle of 2 m of air tints the light of the half behind
+/// it:
+///     L = E / 4π ((1 − e^(−S)) + through (e^(−S) − e^(−2 S))),   through = (1 − a)(1 − a + a c)
+TEST(a_pane_tints_the_air_behind_it)
+{
+    static picture pixels;
+    const double s = 0.7, alpha = 0.6, colors[3] = {0.8, 0.4, 0.2};
+    alp_scene *scene = make_air_with_pane(alpha, colors);
+    alp_lpv *lpv = make_volume(scene, 0.0f);
+    alp_render_options o = options_of(NULL, NULL);
+    o.scattering = (float)s;
+    o.samples = 64;
+    o.lighting.sun.illuminance = 10.0f;
+    o.lighting.sun.azimuth = (float)(0.5 * PI); // along the pane
+    o.lighting.sun.elevation = 0.3f;
+    o.lighting.sun.size = 0.0f;
+    draw(scene, lpv, o, pixels);
+    o.scattering = 0.0f; // the pane itself, which the sun lights
+    static picture pane;
+    draw(scene, lpv, o, pane);
+    for (int i = 0; i < PIXELS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double through = (1.0 - alpha) * (1.0 - alpha + alpha * colors[k]);
+            const double air = (1.0 - exp(-s)) + through * (exp(-s) - exp(-2.0 * s));
+            const double own = (double)pane[i][k] * (double)pane[i][3] * exp(-s);
+            const double seen = (double)pixels[i][k] * (double)pixels[i][3] - own;
+            ASSERT_NEAR(seen / (10.0 / (4.0 * PI) * air), 1.0, 5e-3);
+        }
+    }
+    alp_lpv_destroy(lpv);
+    alp_scene_destroy(scene);
+}
+
 /// A camera that faces a plane of albedo ½ in light of radiance L from everywhere sees
-/// (1 − F) L / 2 + F L, with F = .04, or the base colour ½ of a metal.
+/// (1 − metallic)(1 − F) L / 2 + F L, with F = .04, or the base colour ½ of a metal.
 TEST(a_plane_mirrors_by_schlick)
 {
     static picture pixels;
-    for (int metal = 0; metal < 2; metal++) {
+    for (int i = 0; i < 3; i++) {
+        const double metal = 0.5 * i;
         alp_scene *scene = NULL;
         alpi_builder b;
         alpi_builder_start(&b, context, "plane");
@@ -183,12 +240,15 @@ TEST(a_plane_mirrors_by_schlick)
         scene->materials[grey].metallic = (float)metal;
         alp_lpv *lpv = make_volume(scene, 1.0f);
         alp_render_options o = options_of(NULL, NULL);
-        const double f = metal == 1 ? 0.5 : 0.04;
+        const double f = 0.04 + metal * (0.5 - 0.04);
         draw(scene, lpv, o, pixels);
         assert_even(pixels, 0.5, 1e-5);
         o.gloss = true;
-        draw(scene, lpv, o, pixels);
-        assert_even(pixels, (1.0 - f) * 0.5 + f, 1e-5);
+        for (int black = 0; black < 2; black++) { // as metals are baked, they mirror alike
+            alp_scene_set_metals(scene, black == 1 ? ALP_METALS_BLACK : ALP_METALS_DIFFUSE);
+            draw(scene, lpv, o, pixels);
+            assert_even(pixels, (1.0 - metal) * (1.0 - f) * 0.5 + f, 1e-5);
+        }
         alp_lpv_destroy(lpv);
         alp_scene_destroy(scene);
     }
