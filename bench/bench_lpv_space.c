@@ -158,8 +158,9 @@ static double mean_of_plane(const alp_field *field, double distance, double angl
     float p[256][3], n[256][3], e[256][3];
     double sum = 0.0;
     for (int i = 0; i < 256; i++) {
-        const float y = 4.0f * ((float)(i % 16) / 7.5f - 1.0f);
-        const float at[3] = {c * x - s * y, s * x + c * y, 4.0f * ((float)(i / 16) / 7.5f - 1.0f)};
+        const int column = i % 16, row = i / 16;
+        const float y = 4.0f * ((float)column / 7.5f - 1.0f);
+        const float at[3] = {c * x - s * y, s * x + c * y, 4.0f * ((float)row / 7.5f - 1.0f)};
         const float normal[3] = {-c, -s, 0.0f};
         memcpy(p[i], at, sizeof at);
         memcpy(n[i], normal, sizeof normal);
@@ -221,7 +222,8 @@ alp_result lpv_measure_walls(const bench_options *options, lpv_figures *figures)
         double worst[ANGLES] = {0.0, 0.0, 0.0};
         for (int i = 0; i < ANGLES * places && result == ALP_OK; i++) {
             double leak = 0.0;
-            result = find_leak(none.context, (alp_lpv_mode)m, 0.25f * (float)(i / ANGLES),
+            const int place = i / ANGLES;
+            result = find_leak(none.context, (alp_lpv_mode)m, 0.25f * (float)place,
                                angles[i % ANGLES], &leak);
             worst[i % ANGLES] = fmax(worst[i % ANGLES], leak);
         }
