@@ -51,18 +51,23 @@ void drawing_destroy(drawing *d)
 void drawing_draw(const drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
+    const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
+    drawing_draw_view(d, &view);
+}
+
+void drawing_draw_view(const drawing *d, const camera_view *view)
+{
     const gl_targets *t = &d->targets;
-    const camera_view view = camera_view_of(camera, t->width, t->height, &info);
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
     pass_layers_clear(t);
-    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, &view, t);
+    pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, view, t);
     while (panes && layer < LAYER_LIMIT &&
-           pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, &view, t, layer)) {
+           pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, t, layer)) {
         pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
     pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
-    pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
+    pass_background_draw(&d->background, view, t, t->lefts[layer % 2]);
 }
 
 alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,

@@ -38,6 +38,8 @@ void drawing_destroy(drawing *d);
 
 /// Draws a frame of light.
 void drawing_draw(const drawing *d, const alp_camera *camera);
+/// The same of any view with the size of the targets.
+void drawing_draw_view(const drawing *d, const camera_view *view);
 /// Develops it by alp_film_develop's numbers.
 /// @param film  out: exposure becomes the one that was used
 /// @param light NULL, or out: the light; the caller destroys both

@@ -68,6 +68,22 @@ static bool link_program(GLuint program, const gl_shader *shader)
     return good != 0;
 }
 
+GLuint gl_program_create_compute(const gl_shader *shader)
+{
+    const GLuint compiled = compile(GL_COMPUTE_SHADER, shader);
+    GLuint program = 0;
+    if (compiled != 0) {
+        program = glCreateProgram();
+        glAttachShader(program, compiled);
+        if (!link_program(program, shader)) {
+            glDeleteProgram(program);
+            program = 0;
+        }
+    }
+    glDeleteShader(compiled);
+    return program;
+}
+
 GLuint gl_program_create(const gl_shader *vertex, const gl_shader *fragment)
 {
     const GLuint first = compile(GL_VERTEX_SHADER, vertex);

@@ -16,5 +16,7 @@ typedef struct gl_shader {
 
 /// Compiles and links. @return 0 after a message that names file and line
 GLuint gl_program_create(const gl_shader *vertex, const gl_shader *fragment);
+/// The same of a compute shader.
+GLuint gl_program_create_compute(const gl_shader *shader);
 
 #endif

@@ -12,5 +12,6 @@ extern const gl_shader shader_direct_frag, shader_ambient_frag;                 
 extern const gl_shader shader_shadow_frag;                                         // of lights
 extern const gl_shader shader_screen_vert; // the whole picture
 extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_frag;
+extern const gl_shader shader_project_comp, shader_reduce_comp; // of cubes
 
 #endif

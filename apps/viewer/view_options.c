@@ -5,38 +5,67 @@
 #include "film.h"
 #include "lighting.h"
 #include "output.h"
+#include "view_capture.h"
 #include "views.h"
 
-/// Refuses outputs that are missing, and options of the other kind of output.
+/// Kinds of output.
+enum { PICTURE = 1, FLIGHT = 2, CAPTURE = 4 };
+
+/// @return 0 after a message
+static unsigned find_output(const command_line *a)
+{
+    const option_value *v = a->values;
+    const unsigned given = (v[OPTION_OUTPUT].given ? PICTURE : 0u) |
+                           (v[OPTION_PICTURES].given ? FLIGHT : 0u) |
+                           (v[OPTION_CAPTURE].given ? CAPTURE : 0u);
+    if (given == 0) {
+        (void)usage_error(COMMAND_VIEW, "no output; give -o IMAGE.png for a picture, --path "
+                                        "FLIGHT.csv --pictures DIR for a flight, or --capture "
+                                        "X,Y,Z");
+    } else if ((given & (given - 1)) != 0) {
+        (void)usage_error(COMMAND_VIEW, "%s are two outputs; give one",
+                          (given & CAPTURE) == 0   ? "-o and --pictures"
+                          : (given & PICTURE) != 0 ? "-o and --capture"
+                                                   : "--pictures and --capture");
+        return 0;
+    }
+    return given;
+}
+
+/// Refuses outputs that are missing, and options of other kinds of output.
 static int check_output(const command_line *a)
 {
     static const struct {
         const char *name;
         option_id id;
-        bool flight;
-    } read_by[] = {{"--frames", OPTION_FRAMES, true},
-                   {"--path", OPTION_PATH, true},
-                   {"--camera", OPTION_CAMERA, false},
-                   {"--reference", OPTION_REFERENCE, false},
-                   {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, false}};
+        unsigned outputs;
+    } read_by[] = {{"--frames", OPTION_FRAMES, FLIGHT},
+                   {"--path", OPTION_PATH, FLIGHT},
+                   {"--camera", OPTION_CAMERA, PICTURE},
+                   {"--resolution", OPTION_RESOLUTION, PICTURE | FLIGHT},
+                   {"--exposure", OPTION_EXPOSURE, PICTURE | FLIGHT},
+                   {"--tone", OPTION_TONE, PICTURE | FLIGHT},
+                   {"--white-balance", OPTION_WHITE_BALANCE, PICTURE | FLIGHT},
+                   {"--force", OPTION_FORCE, PICTURE | FLIGHT},
+                   {"--convention", OPTION_CONVENTION, CAPTURE},
+                   {"--reference", OPTION_REFERENCE, PICTURE},
+                   {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, PICTURE}};
     const option_value *v = a->values;
-    const bool flight = v[OPTION_PICTURES].given;
-    if (v[OPTION_OUTPUT].given == flight) {
-        return usage_error(COMMAND_VIEW, flight ? "-o and --pictures are two outputs; give one"
-                                                : "no output; give -o IMAGE.png for a picture, or "
-                                                  "--path FLIGHT.csv --pictures DIR for a flight");
-    }
-    for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
-        if (v[read_by[i].id].given && read_by[i].flight != flight) {
+    const unsigned output = find_output(a);
+    const bool flight = output == FLIGHT;
+    for (size_t i = 0; i < sizeof read_by / sizeof *read_by && output != 0; i++) {
+        if (v[read_by[i].id].given && (read_by[i].outputs & output) == 0) {
             return usage_error(COMMAND_VIEW, "%s: does not apply to %s", read_by[i].name,
-                               flight ? "--pictures" : "-o");
+                               flight              ? "--pictures"
+                               : output == PICTURE ? "-o"
+                                                   : "--capture");
         }
     }
     if (flight && !v[OPTION_PATH].given) {
         return usage_error(COMMAND_VIEW, "no flight; give --path FLIGHT.csv, lines of "
                                          "t,px,py,pz,tx,ty,tz[,vfov]");
     }
-    return EXIT_DONE;
+    return output != 0 ? EXIT_DONE : EXIT_USAGE;
 }
 
 static int check_image(const command_line *a)
@@ -91,6 +120,11 @@ int view_settings_read(const command_line *a, view_settings *s)
     }
     if (code == EXIT_DONE) {
         code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, &s->render);
+    }
+    if (code == EXIT_DONE && a->values[OPTION_CAPTURE].given) {
+        float point[3];
+        s->render.width = s->render.height = CAPTURE_SIDE;
+        code = capture_read(a, (const double[3]){0.0, 0.0, 0.0}, point);
     }
     s->film = film_read(a, s->mode->method);
     if (code == EXIT_DONE && a->values[OPTION_OUTPUT].given) {

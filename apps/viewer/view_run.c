@@ -6,6 +6,7 @@
 #include "lighting.h"
 #include "output.h"
 #include "picture_texts.h"
+#include "view_capture.h"
 #include "view_job.h"
 
 #include <stdio.h>
@@ -88,7 +89,9 @@ static int run_scene(view_job *job)
     code = code == EXIT_DONE ? load_reference(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
     if (code == EXIT_DONE) {
-        code = a->values[OPTION_PICTURES].given ? view_flight(job) : view_picture(job);
+        code = a->values[OPTION_PICTURES].given  ? view_flight(job)
+               : a->values[OPTION_CAPTURE].given ? view_capture(job)
+                                                 : view_picture(job);
     }
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
     drawing_destroy(&job->drawing);

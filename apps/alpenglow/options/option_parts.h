@@ -26,6 +26,7 @@ extern const option_part option_part_lpv;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_view;
+extern const option_part option_part_view_more;
 extern const option_part option_part_later;
 
 #endif

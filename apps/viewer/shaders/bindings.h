@@ -17,6 +17,8 @@
 #define BUFFER_SHADOW_VIEWS 9  // shadow_view [view]
 #define BUFFER_AMBIENT 10      // an ambient model
 #define BUFFER_SUNS 0          // of pass_background: sun [sun]
+#define BUFFER_SH_PARTS 0      // of gl_cube: float [part][9][3]
+#define BUFFER_SH 1            // of gl_cube: float [9][3]
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0

@@ -32,3 +32,10 @@ done
 try $view --with lightmap --direct off
 try $view --with hemisphere --size 64
 try $view --with lightmap --samples 4
+capture="view scene.glb --with lightmap --capture"
+try $capture 1,2
+try $capture 1,2,3 -o out.png
+try $capture 1,2,3 --pictures frames
+try $capture 1,2,3 --camera 0
+try $capture 1,2,3 --resolution 8x8
+try $view --with lightmap --convention gltf
