@@ -32,7 +32,7 @@ static alp_result develop(flight_job *job, double seconds, alp_image **developed
     }
     alp_image_destroy(light);
     if (result == ALP_OK) {
-        result = drawing_develop(d, context, &film, developed, NULL);
+        result = view_develop(job->view, &film, developed, NULL);
     }
     *exposure = film.exposure;
     return result;
@@ -46,7 +46,7 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
-    drawing_draw(&view->drawing, &camera);
+    view_draw(view, &camera);
     const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
     const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
                                       : session_end(&view->session, result);

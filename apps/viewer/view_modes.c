@@ -138,11 +138,13 @@ int view_mode_check(const command_line *a)
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
                    {"--seed", OPTION_SEED, USES_SEED}};
-    const unsigned uses = view_mode_of(a)->uses;
+    const option_value *beside = &a->values[OPTION_BESIDE];
+    const unsigned uses = view_mode_of(a)->uses | (beside->given ? modes[beside->choice].uses : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].use & uses) == 0 && a->values[read_by[i].id].given) {
-            return usage_error(COMMAND_VIEW, "%s: does not apply to --with %s", read_by[i].name,
-                               a->values[OPTION_WITH].text);
+            return usage_error(COMMAND_VIEW, "%s: does not apply to --with %s%s%s", read_by[i].name,
+                               a->values[OPTION_WITH].text, beside->given ? " --beside " : "",
+                               beside->given ? beside->text : "");
         }
     }
     return EXIT_DONE;

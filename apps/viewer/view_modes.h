@@ -45,7 +45,8 @@ typedef struct view_mode {
 
 /// The mode of --with.
 const view_mode *view_mode_of(const command_line *arguments);
-/// Refuses options that the mode does not use. @return EXIT_DONE, or EXIT_USAGE after a message
+/// Refuses options that no mode of the picture uses. @return EXIT_DONE, or EXIT_USAGE after a
+/// message
 int view_mode_check(const command_line *arguments);
 void mode_light_destroy(mode_light *light);
 

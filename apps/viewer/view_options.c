@@ -48,6 +48,8 @@ static int check_output(const command_line *a)
                    {"--white-balance", OPTION_WHITE_BALANCE, PICTURE | FLIGHT},
                    {"--force", OPTION_FORCE, PICTURE | FLIGHT},
                    {"--convention", OPTION_CONVENTION, CAPTURE},
+                   {"--beside", OPTION_BESIDE, PICTURE | FLIGHT},
+                   {"--divider", OPTION_DIVIDER, PICTURE | FLIGHT},
                    {"--reference", OPTION_REFERENCE, PICTURE},
                    {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, PICTURE}};
     const option_value *v = a->values;
@@ -80,10 +82,14 @@ static int check_image(const command_line *a)
     return film_refuse(a, output);
 }
 
-static int check_reference(const command_line *a)
+/// Refuses options that need another one.
+static int check_needs(const command_line *a)
 {
     if (a->values[OPTION_REFERENCE_THRESHOLD].given && !a->values[OPTION_REFERENCE].given) {
         return usage_error(COMMAND_VIEW, "--reference-threshold: needs --reference IMAGE");
+    }
+    if (a->values[OPTION_DIVIDER].given && !a->values[OPTION_BESIDE].given) {
+        return usage_error(COMMAND_VIEW, "--divider: needs --beside MODE");
     }
     return EXIT_DONE;
 }
@@ -104,7 +110,7 @@ int view_settings_read(const command_line *a, view_settings *s)
     *s = (view_settings){0};
     int code = check_output(a);
     code = code == EXIT_DONE ? check_image(a) : code;
-    code = code == EXIT_DONE ? check_reference(a) : code;
+    code = code == EXIT_DONE ? check_needs(a) : code;
     if (code == EXIT_DONE && !a->values[OPTION_WITH].given) {
         code = usage_error(COMMAND_VIEW, "no mode; give --with lightmap, direct, hemisphere "
                                          "or another");

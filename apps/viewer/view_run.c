@@ -41,27 +41,39 @@ int view_save(view_job *job, const alp_camera *camera, double exposure, alp_imag
     return session_end(s, result);
 }
 
-/// Makes the light of the mode and all that draws.
+/// Makes the light of a mode and all that draws it.
+/// @param a whose --with is the mode
+static int prepare_mode(view_job *job, const command_line *a, const view_mode *mode, drawing *d)
+{
+    const alp_render_options *render = &job->settings.render;
+    session *s = &job->session;
+    const drawing_options options = {.context = s->context,
+                                     .mode = mode,
+                                     .lighting = &render->lighting,
+                                     .width = render->width,
+                                     .height = render->height,
+                                     .direct = (mode->uses & USES_SWITCH) == 0 ||
+                                               a->values[OPTION_DIRECT].choice == 1,
+                                     .metals_black = a->values[OPTION_METALS].choice == 1};
+    const int code = drawing_create(s->scene, &options, d);
+    return code == EXIT_DONE && mode->prepare != NULL ? mode->prepare(s, a, render, &d->light)
+                                                      : code;
+}
+
 static int prepare(view_job *job)
 {
-    view_settings *v = &job->settings;
     session *s = &job->session;
+    view_beside *beside = &job->beside;
     const double start = clock_seconds();
-    const drawing_options options = {.context = s->context,
-                                     .mode = v->mode,
-                                     .lighting = &v->render.lighting,
-                                     .width = v->render.width,
-                                     .height = v->render.height,
-                                     .direct = (v->mode->uses & USES_SWITCH) == 0 ||
-                                               job->arguments->values[OPTION_DIRECT].choice == 1,
-                                     .metals_black =
-                                         job->arguments->values[OPTION_METALS].choice == 1};
-    v->render.progress = session_progress;
-    v->render.progress_user = s;
+    job->settings.render.progress = session_progress;
+    job->settings.render.progress_user = s;
     interrupt_defer();
-    int code = drawing_create(s->scene, &options, &job->drawing);
-    if (code == EXIT_DONE && v->mode->prepare != NULL) {
-        code = v->mode->prepare(s, job->arguments, &v->render, &job->drawing.light);
+    int code = prepare_mode(job, job->arguments, job->settings.mode, &job->drawing);
+    if (code == EXIT_DONE && job->arguments->values[OPTION_BESIDE].given) {
+        beside->arguments = *job->arguments;
+        beside->arguments.values[OPTION_WITH] = job->arguments->values[OPTION_BESIDE];
+        beside->mode = view_mode_of(&beside->arguments);
+        code = prepare_mode(job, &beside->arguments, beside->mode, &beside->drawing);
     }
     code = code == EXIT_DONE ? gl_context_check(&job->gl) : code;
     progress_clear(&s->progress);
@@ -94,6 +106,7 @@ static int run_scene(view_job *job)
                                                  : view_picture(job);
     }
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
+    drawing_destroy(&job->beside.drawing);
     drawing_destroy(&job->drawing);
     alp_image_destroy(job->reference);
     alp_image_destroy(sky);

@@ -10,6 +10,11 @@
 #define SKY_COMMANDS (LIGHT_COMMANDS & ~IN_LPV)
 #define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
+/// Modes of view: choices of --with and --beside.
+#define VIEW_MODES                                                                                 \
+    "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"                     \
+    "environment"
+
 typedef struct option_part {
     const option *rows; // [count]
     size_t count;

@@ -26,8 +26,7 @@ static const option rows[] = {
      .kind = KIND_CHOICE,
      .name = "--with",
      .value = "MODE",
-     .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
-                "environment",
+     .choices = VIEW_MODES,
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"

@@ -12,6 +12,27 @@ static const option rows[] = {
      .help = "Instead of a picture: print nine spherical harmonics of the light at this point, in "
              "metres. The mode draws a cube map of 6 x 256 x 256 pixels. Disks of suns are left "
              "out."},
+    {.id = OPTION_BESIDE,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--beside",
+     .value = "MODE",
+     .choices = VIEW_MODES,
+     .help = "A second mode, as of --with, for the right part of the picture. Exposure, tone curve "
+             "and white balance are those of --with."},
+    {.id = OPTION_DIVIDER,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--divider",
+     .value = "F",
+     .minimum = 0,
+     .maximum = 1,
+     .initial = "0.5",
+     .help = "Place of the white line between the parts of --beside: 0 the left edge of the "
+             "picture, 1 the right one. The line is one pixel wide. Linear pictures have alpha 0 "
+             "there."},
 };
 
 const option_part option_part_view_more = {rows, sizeof rows / sizeof *rows};

@@ -39,3 +39,7 @@ try $capture 1,2,3 --pictures frames
 try $capture 1,2,3 --camera 0
 try $capture 1,2,3 --resolution 8x8
 try $view --with lightmap --convention gltf
+try $view --with none --divider 0.5
+try $view --with none --beside albedo --divider 2
+try $view --with none --beside albedo --size 64
+try $capture 1,2,3 --beside albedo
