@@ -46,8 +46,10 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
-    view_draw(view, &camera);
-    const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    alp_result result = view_draw(view, &camera);
+    if (result == ALP_OK) {
+        result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    }
     const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
                                       : session_end(&view->session, result);
     alp_image_destroy(developed);

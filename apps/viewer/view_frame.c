@@ -3,12 +3,21 @@
 #include "divider.h"
 #include "view_job.h"
 
-void view_draw(view_job *job, const alp_camera *camera)
+static alp_result draw(drawing *d, const view_mode *mode, const alp_camera *camera)
 {
-    drawing_draw(&job->drawing, camera);
-    if (job->beside.mode != NULL) {
-        drawing_draw(&job->beside.drawing, camera);
+    if ((mode->uses & USES_PATHS) != 0) {
+        return path_picture_draw(&d->light.paths, d->scene, camera, &d->targets);
     }
+    drawing_draw(d, camera);
+    return ALP_OK;
+}
+
+alp_result view_draw(view_job *job, const alp_camera *camera)
+{
+    const alp_result result = draw(&job->drawing, job->settings.mode, camera);
+    return result == ALP_OK && job->beside.mode != NULL
+               ? draw(&job->beside.drawing, job->beside.mode, camera)
+               : result;
 }
 
 alp_result view_develop(view_job *job, alp_film_options *film, alp_image **developed,

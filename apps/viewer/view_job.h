@@ -25,8 +25,8 @@ typedef struct view_job {
     double prepare_seconds;
 } view_job;
 
-/// Draws a frame.
-void view_draw(view_job *job, const alp_camera *camera);
+/// Draws a frame. @return as alp_render, of modes that trace paths
+alp_result view_draw(view_job *job, const alp_camera *camera);
 /// Develops it. @param film, developed, light as of drawing_develop
 alp_result view_develop(view_job *job, alp_film_options *film, alp_image **developed,
                         alp_image **light);

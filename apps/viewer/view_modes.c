@@ -47,6 +47,17 @@ static int prepare_direct(session *s, const command_line *a, const alp_render_op
     return EXIT_DONE;
 }
 
+static int prepare_paths(session *s, const command_line *a, const alp_render_options *o,
+                         mode_light *light)
+{
+    (void)s;
+    light->paths =
+        (path_picture){.options = *o, .samples = (uint32_t)a->values[OPTION_SAMPLES].whole};
+    light->paths.options.method = ALP_RENDER_REFERENCE;
+    light->paths.options.without_direct = a->values[OPTION_DIRECT].choice == 0;
+    return EXIT_DONE;
+}
+
 static void bind_lights(const mode_light *light)
 {
     gl_lights_bind(&light->lights);
@@ -61,7 +72,8 @@ static void bind_ambient(const mode_light *light)
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT,
+    TRACED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_PATHS
 };
 
 /// In the order of the choices of --with.
@@ -110,6 +122,10 @@ static const view_mode modes[] = {
      .model = ALP_AMBIENT_ENVIRONMENT,
      .prepare = prepare_ambient,
      .bind = bind_ambient},
+    {.fragment = &shader_none_frag,
+     .uses = TRACED,
+     .method = ALP_RENDER_REFERENCE,
+     .prepare = prepare_paths},
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -137,6 +153,7 @@ int view_mode_check(const command_line *a)
                    {"--atlas", OPTION_ATLAS, USES_ATLAS},
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
+                   {"--samples", OPTION_SAMPLES, USES_PATHS},
                    {"--seed", OPTION_SEED, USES_SEED}};
     const option_value *beside = &a->values[OPTION_BESIDE];
     const unsigned uses = view_mode_of(a)->uses | (beside->given ? modes[beside->choice].uses : 0u);

@@ -7,6 +7,7 @@
 #include "gl_lightmap.h"
 #include "gl_lights.h"
 #include "gl_program.h"
+#include "path_picture.h"
 #include "session.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
@@ -14,6 +15,7 @@ typedef struct mode_light {
     gl_lightmap lightmap;
     gl_ambient ambient;
     gl_lights lights;
+    path_picture paths;
 } mode_light;
 
 /// Options that a mode reads.
@@ -26,8 +28,9 @@ typedef enum mode_use {
     USES_SEED = 32,
     USES_SWITCH = 64, // --direct
     // Not options.
-    USES_PANES = 128, // light goes through panes
-    USES_DIRECT = 256 // light comes straight from lamps and suns
+    USES_PANES = 128,  // light goes through panes
+    USES_DIRECT = 256, // light comes straight from lamps and suns
+    USES_PATHS = 512   // --samples; paths make the picture, and nothing is drawn
 } mode_use;
 
 typedef struct view_mode {

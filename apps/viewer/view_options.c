@@ -128,6 +128,10 @@ int view_settings_read(const command_line *a, view_settings *s)
         code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, &s->render);
     }
     if (code == EXIT_DONE && a->values[OPTION_CAPTURE].given) {
+        if ((s->mode->uses & USES_PATHS) != 0) {
+            return usage_error(COMMAND_VIEW, "--capture: does not apply to --with %s",
+                               a->values[OPTION_WITH].text);
+        }
         float point[3];
         s->render.width = s->render.height = CAPTURE_SIDE;
         code = capture_read(a, (const double[3]){0.0, 0.0, 0.0}, point);

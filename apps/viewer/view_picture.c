@@ -53,7 +53,9 @@ int view_picture(view_job *job)
     alp_result result = alp_render_find_camera(s->scene, &job->settings.render, &camera);
     const double start = clock_seconds();
     if (result == ALP_OK) {
-        view_draw(job, &camera);
+        result = view_draw(job, &camera);
+    }
+    if (result == ALP_OK) {
         result = view_develop(job, &job->settings.film, &developed, &light);
     }
     const int code =

@@ -13,7 +13,7 @@
 /// Modes of view: choices of --with and --beside.
 #define VIEW_MODES                                                                                 \
     "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"                     \
-    "environment"
+    "environment|reference"
 
 typedef struct option_part {
     const option *rows; // [count]

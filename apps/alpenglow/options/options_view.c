@@ -35,7 +35,8 @@ static const option rows[] = {
              "shadows are sharp. Panes that let half the light through or more cast no shadow, "
              "others a whole one.\n"
              "constant, hemisphere, ground-map, ambient-cube, environment: the models of ambient "
-             "light, as of render, with light as of direct (--direct)."},
+             "light, as of render, with light as of direct (--direct).\n"
+             "reference: paths, as render --with reference (--samples)."},
     {.id = OPTION_DIRECT,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -44,7 +45,7 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "on",
-     .help = "Light straight from lamps and suns, for the models of ambient light."},
+     .help = "Light straight from lamps and suns, for the models of ambient light and reference."},
     {.id = OPTION_PATH,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

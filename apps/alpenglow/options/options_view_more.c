@@ -12,6 +12,18 @@ static const option rows[] = {
      .help = "Instead of a picture: print nine spherical harmonics of the light at this point, in "
              "metres. The mode draws a cube map of 6 x 256 x 256 pixels. Disks of suns are left "
              "out."},
+    {.id = OPTION_SAMPLES,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_WHOLE,
+     .name = "--samples",
+     .value = "N",
+     .minimum = 1,
+     .maximum = 65536,
+     .unit = "paths per pixel",
+     .initial = "16",
+     .help = "Paths of reference for each picture, rounded up to a multiple of 16, with noise of 1 "
+             "/ sqrt(N). Batches of 16 have seeds of their own, and are averaged."},
     {.id = OPTION_BESIDE,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

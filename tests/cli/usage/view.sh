@@ -43,3 +43,5 @@ try $view --with none --divider 0.5
 try $view --with none --beside albedo --divider 2
 try $view --with none --beside albedo --size 64
 try $capture 1,2,3 --beside albedo
+try view scene.glb --with reference --capture 1,2,3
+try $view --with reference --size 64
