@@ -18,6 +18,14 @@ static int add_lights(const alp_scene *scene, const drawing_options *o, drawing 
     return code;
 }
 
+static int add_ssao(const drawing_options *o, drawing *d)
+{
+    const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
+    const int code = pass_ssao_create(&d->targets, panes, o->ssao_radius, &d->ssao);
+    d->light.ssao = d->ssao.share;
+    return code;
+}
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
@@ -33,12 +41,15 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
     code = code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, &d->drawn) : code;
     const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
-    return code == EXIT_DONE && lit ? add_lights(scene, o, d) : code;
+    code = code == EXIT_DONE && lit ? add_lights(scene, o, d) : code;
+    const bool occluded = o->ssao_radius > 0.0f && (o->mode->uses & USES_SSAO) != 0;
+    return code == EXIT_DONE && occluded ? add_ssao(o, d) : code;
 }
 
 void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
+    pass_ssao_destroy(&d->ssao);
     gl_scene_destroy(&d->drawn);
     pass_shadows_destroy(&d->shadows);
     pass_film_destroy(&d->film);
@@ -60,6 +71,9 @@ void drawing_draw_view(const drawing *d, const camera_view *view)
     const gl_targets *t = &d->targets;
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
+    if (d->light.ssao != 0) {
+        pass_ssao_draw(&d->ssao, &d->drawn, view, t);
+    }
     pass_layers_clear(t);
     pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, view, t);
     while (panes && layer < LAYER_LIMIT &&

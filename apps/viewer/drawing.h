@@ -7,6 +7,7 @@
 #include "pass_film.h"
 #include "pass_layers.h"
 #include "pass_shadows.h"
+#include "pass_ssao.h"
 #include "pass_surfaces.h"
 
 typedef struct drawing {
@@ -18,7 +19,8 @@ typedef struct drawing {
     pass_background background;
     pass_film film;
     pass_shadows shadows;
-    mode_light light; // of the mode; the caller fills all but the lights
+    pass_ssao ssao;
+    mode_light light; // of the mode; the caller fills all but lights and ssao
 } drawing;
 
 typedef struct drawing_options {
@@ -28,7 +30,8 @@ typedef struct drawing_options {
     uint32_t width, height;
     bool direct; // lamps and suns shine, in modes that have their light
     bool metals_black;
-    bool level_zero; // textures are read bilinearly without mip levels, as by render
+    float ssao_radius; // metres; 0 = no ambient occlusion, as of modes that do not use it
+    bool level_zero;   // textures are read bilinearly without mip levels, as by render
 } drawing_options;
 
 /// Makes it in the current context of OpenGL.

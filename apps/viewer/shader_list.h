@@ -13,5 +13,6 @@ extern const gl_shader shader_shadow_frag;                                      
 extern const gl_shader shader_screen_vert; // the whole picture
 extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_frag;
 extern const gl_shader shader_project_comp, shader_reduce_comp; // of cubes
+extern const gl_shader shader_ssao_places_frag, shader_ssao_frag, shader_ssao_blur_frag;
 
 #endif

@@ -4,6 +4,7 @@
 #include "fields.h"
 #include "lightmaps.h"
 #include "shader_list.h"
+#include "shaders/bindings.h"
 
 static int prepare_lightmap(session *s, const command_line *a, const alp_render_options *o,
                             mode_light *light)
@@ -66,13 +67,15 @@ static void bind_lights(const mode_light *light)
 static void bind_ambient(const mode_light *light)
 {
     gl_ambient_bind(&light->ambient);
+    glBindTextureUnit(TEXTURE_SSAO, light->ssao);
+    glUniform1i(UNIFORM_SSAO, light->ssao != 0);
     gl_lights_bind(&light->lights);
 }
 
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT,
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_SSAO,
     TRACED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_PATHS
 };
 
@@ -154,6 +157,8 @@ int view_mode_check(const command_line *a)
                    {"--stitch", OPTION_STITCH, USES_ATLAS},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, USES_ATLAS},
                    {"--samples", OPTION_SAMPLES, USES_PATHS},
+                   {"--ssao", OPTION_SSAO, USES_SSAO},
+                   {"--ssao-radius", OPTION_SSAO_RADIUS, USES_SSAO},
                    {"--seed", OPTION_SEED, USES_SEED}};
     const option_value *beside = &a->values[OPTION_BESIDE];
     const unsigned uses = view_mode_of(a)->uses | (beside->given ? modes[beside->choice].uses : 0u);

@@ -16,6 +16,7 @@ typedef struct mode_light {
     gl_ambient ambient;
     gl_lights lights;
     path_picture paths;
+    GLuint ssao; // share of ambient light that is open, of pass_ssao; 0 = all of it
 } mode_light;
 
 /// Options that a mode reads.
@@ -30,7 +31,8 @@ typedef enum mode_use {
     // Not options.
     USES_PANES = 128,  // light goes through panes
     USES_DIRECT = 256, // light comes straight from lamps and suns
-    USES_PATHS = 512   // --samples; paths make the picture, and nothing is drawn
+    USES_PATHS = 512,  // --samples; paths make the picture, and nothing is drawn
+    USES_SSAO = 1024   // --ssao
 } mode_use;
 
 typedef struct view_mode {

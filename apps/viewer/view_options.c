@@ -50,6 +50,8 @@ static int check_output(const command_line *a)
                    {"--convention", OPTION_CONVENTION, CAPTURE},
                    {"--beside", OPTION_BESIDE, PICTURE | FLIGHT},
                    {"--divider", OPTION_DIVIDER, PICTURE | FLIGHT},
+                   {"--ssao", OPTION_SSAO, PICTURE | FLIGHT},
+                   {"--ssao-radius", OPTION_SSAO_RADIUS, PICTURE | FLIGHT},
                    {"--reference", OPTION_REFERENCE, PICTURE},
                    {"--reference-threshold", OPTION_REFERENCE_THRESHOLD, PICTURE}};
     const option_value *v = a->values;
@@ -90,6 +92,9 @@ static int check_needs(const command_line *a)
     }
     if (a->values[OPTION_DIVIDER].given && !a->values[OPTION_BESIDE].given) {
         return usage_error(COMMAND_VIEW, "--divider: needs --beside MODE");
+    }
+    if (a->values[OPTION_SSAO_RADIUS].given && a->values[OPTION_SSAO].choice == 0) {
+        return usage_error(COMMAND_VIEW, "--ssao-radius: needs --ssao on");
     }
     return EXIT_DONE;
 }

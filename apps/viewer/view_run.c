@@ -9,6 +9,7 @@
 #include "view_capture.h"
 #include "view_job.h"
 
+#include <math.h>
 #include <stdio.h>
 
 void view_print_done(const view_job *job, const char *what, double draw_seconds)
@@ -41,6 +42,22 @@ int view_save(view_job *job, const alp_camera *camera, double exposure, alp_imag
     return session_end(s, result);
 }
 
+/// Radius of ambient occlusion where none is given, as a share of the scene's diagonal.
+static const double SSAO_SHARE = 0.05;
+
+/// @return metres, 0 without ambient occlusion
+static float ssao_radius(const session *s, const command_line *a)
+{
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    double diagonal = 0.0;
+    for (int k = 0; k < 3; k++) {
+        diagonal = hypot(diagonal, (double)info.bounds_max[k] - (double)info.bounds_min[k]);
+    }
+    return a->values[OPTION_SSAO].choice == 0          ? 0.0f
+           : a->values[OPTION_SSAO_RADIUS].choice >= 0 ? (float)(SSAO_SHARE * diagonal)
+                                                       : (float)a->values[OPTION_SSAO_RADIUS].real;
+}
+
 /// Makes the light of a mode and all that draws it.
 /// @param a whose --with is the mode
 static int prepare_mode(view_job *job, const command_line *a, const view_mode *mode, drawing *d)
@@ -54,7 +71,8 @@ static int prepare_mode(view_job *job, const command_line *a, const view_mode *m
                                      .height = render->height,
                                      .direct = (mode->uses & USES_SWITCH) == 0 ||
                                                a->values[OPTION_DIRECT].choice == 1,
-                                     .metals_black = a->values[OPTION_METALS].choice == 1};
+                                     .metals_black = a->values[OPTION_METALS].choice == 1,
+                                     .ssao_radius = ssao_radius(s, a)};
     const int code = drawing_create(s->scene, &options, d);
     return code == EXIT_DONE && mode->prepare != NULL ? mode->prepare(s, a, render, &d->light)
                                                       : code;

@@ -23,7 +23,7 @@ static const option rows[] = {
      .unit = "paths per pixel",
      .initial = "16",
      .help = "Paths of reference for each picture, rounded up to a multiple of 16, with noise of 1 "
-             "/ sqrt(N). Batches of 16 have seeds of their own, and are averaged."},
+             "/ sqrt(N). Batches of 64 have seeds of their own, and are averaged."},
     {.id = OPTION_BESIDE,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -45,6 +45,29 @@ static const option rows[] = {
      .help = "Place of the white line between the parts of --beside: 0 the left edge of the "
              "picture, 1 the right one. The line is one pixel wide. Linear pictures have alpha 0 "
              "there."},
+    {.id = OPTION_SSAO,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_CHOICE,
+     .name = "--ssao",
+     .value = "on|off",
+     .choices = "off|on",
+     .initial = "off",
+     .help = "Screen-space ambient occlusion. It dims the light of a model of ambient light by "
+             "surfaces that the picture shows near, and neither direct light nor emission."},
+    {.id = OPTION_SSAO_RADIUS,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_REAL,
+     .name = "--ssao-radius",
+     .value = "R|auto",
+     .choices = "auto",
+     .minimum = 1e-6,
+     .maximum = 1e6,
+     .unit = "metres",
+     .initial = "auto",
+     .help = "Farthest surface that dims (--ssao on).\n"
+             "auto: a twentieth of the diagonal of the scene."},
 };
 
 const option_part option_part_view_more = {rows, sizeof rows / sizeof *rows};

@@ -36,6 +36,7 @@
 #define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
+#define TEXTURE_SSAO 22
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -56,12 +57,15 @@
 #define UNIFORM_PEELED 17    // int, of PEEL_...
 #define UNIFORM_LIGHTS 18    // uint, lights of BUFFER_LIGHTS
 #define UNIFORM_AMBIENT 19   // int, an alp_ambient_model
+#define UNIFORM_SSAO 48      // bool, whether TEXTURE_SSAO counts
 // Of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
 #define UNIFORM_SKY_DOWN 10  // vec3, radiance
 #define UNIFORM_SKY_TURN 11  // float, turns of the whole circle
 #define UNIFORM_SUN_COUNT 12 // uint
+// Of pass_ssao.
+#define UNIFORM_SSAO_RADIUS 8 // float, metres
 // Of pass_film.
 #define UNIFORM_GAIN 8     // float, 2^exposure
 #define UNIFORM_TONE 9     // int, an alp_tone

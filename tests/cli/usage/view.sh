@@ -45,3 +45,7 @@ try $view --with none --beside albedo --size 64
 try $capture 1,2,3 --beside albedo
 try view scene.glb --with reference --capture 1,2,3
 try $view --with reference --size 64
+try $view --with lightmap --ssao on
+try $view --with hemisphere --ssao-radius 1
+try $view --with hemisphere --ssao on --ssao-radius 0
+try view scene.glb --with hemisphere --ssao on --capture 1,2,3

@@ -180,7 +180,7 @@ TEST_WITH_CONTEXT(faces_see_fronts_of_surfaces, 2)
                                      .width = SIDE,
                                      .height = SIDE,
                                      .level_zero = true};
-    const float point[3] = {0.28f, 0.3f, 0.0f};
+    const float point[3] = {0.28f, 0.4f, 0.28f};
     gl_cube cube;
     alp_sh9 drawn;
     capture(scene, &options, point, &cube);
@@ -196,7 +196,7 @@ TEST_WITH_CONTEXT(faces_see_the_walls_of_render, 2)
     static const float axes[6][2][3] = {{{1, 0, 0}, {0, 1, 0}},  {{-1, 0, 0}, {0, 1, 0}},
                                         {{0, 1, 0}, {0, 0, -1}}, {{0, -1, 0}, {0, 0, 1}},
                                         {{0, 0, 1}, {0, 1, 0}},  {{0, 0, -1}, {0, 1, 0}}};
-    const float point[3] = {0.28f, 0.4f, 0.0f};
+    const float point[3] = {0.28f, 0.4f, 0.28f};
     if (!test_gl_open()) {
         skip();
     }
