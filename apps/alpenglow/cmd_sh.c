@@ -3,10 +3,9 @@
 #include "commands.h"
 #include "messages.h"
 #include "output.h"
+#include "sh_values.h"
 
 #include <alpenglow/alpenglow.h>
-
-#include <math.h>
 
 enum { MAP_WIDTH = 256 };
 
@@ -66,24 +65,6 @@ static alp_result write_map(projection *p, const char *path, bool overwrite)
                : result;
 }
 
-/// Prints the values. Those below 1e-7 of the largest are rounding, and print as 0.
-static alp_result print_values(const alp_sh9 *radiance, alp_sh_convention convention)
-{
-    float values[9][3];
-    const alp_result result = alp_sh_convert(radiance, convention, values);
-    const uint32_t count = result == ALP_OK ? 3 * alp_sh_row_count(convention) : 0;
-    float largest = 0.0f;
-    for (uint32_t i = 0; i < count; i++) {
-        largest = fmaxf(largest, fabsf(values[i / 3][i % 3]));
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const float value = values[i / 3][i % 3];
-        printf("%.7g%c", fabsf(value) > 1e-7f * largest ? (double)value : 0.0,
-               i % 3 == 2 ? '\n' : ' ');
-    }
-    return result;
-}
-
 static int run(projection *p, const command_line *a)
 {
     const char *output = a->values[OPTION_OUTPUT].text;
@@ -99,7 +80,8 @@ static int run(projection *p, const command_line *a)
         result = write_map(p, output, a->values[OPTION_FORCE].given);
     }
     if (result == ALP_OK) {
-        result = print_values(&p->radiance, (alp_sh_convention)a->values[OPTION_CONVENTION].choice);
+        result =
+            sh_values_print(&p->radiance, (alp_sh_convention)a->values[OPTION_CONVENTION].choice);
     }
     return result == ALP_OK ? EXIT_DONE : failure(alp_context_message(p->context));
 }

@@ -29,6 +29,14 @@ static int add_lights(const alp_scene *scene, const alp_lighting_options *lighti
     return code;
 }
 
+static int add_ssao(const drawing_options *o, drawing *d)
+{
+    const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
+    const int code = pass_ssao_create(&d->targets, panes, o->ssao_radius, &d->ssao);
+    d->light.ssao = d->ssao.share;
+    return code;
+}
+
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
 {
     const bool open = (o->mode->uses & USES_BACKGROUND) != 0;
@@ -51,14 +59,17 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
         code = pass_air_create(&d->air);
     }
     const bool lit = o->direct && (o->mode->uses & USES_DIRECT) != 0;
-    return code == EXIT_DONE && (lit || d->light.lpv != NULL)
-               ? add_lights(scene, o->lighting, lit, d)
-               : code;
+    if (code == EXIT_DONE && (lit || d->light.lpv != NULL)) {
+        code = add_lights(scene, o->lighting, lit, d);
+    }
+    const bool occluded = o->ssao_radius > 0.0f && (o->mode->uses & USES_SSAO) != 0;
+    return code == EXIT_DONE && occluded ? add_ssao(o, d) : code;
 }
 
 void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
+    pass_ssao_destroy(&d->ssao);
     gl_scene_destroy(&d->drawn);
     pass_air_destroy(&d->air);
     pass_shadows_destroy(&d->shadows);
@@ -119,25 +130,34 @@ static void light_volume(drawing *d, const camera_view *view)
 void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
+    const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
+    drawing_draw_view(d, &view);
+}
+
+void drawing_draw_view(drawing *d, const camera_view *view)
+{
     const gl_targets *t = &d->targets;
-    const camera_view view = camera_view_of(camera, t->width, t->height, &info);
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
+    const alp_scene_info info = alp_scene_get_info(d->scene);
     if (d->light.lpv != NULL) {
-        light_volume(d, &view);
+        light_volume(d, view);
+    }
+    if (d->light.ssao != 0) {
+        pass_ssao_draw(&d->ssao, &d->drawn, view, t);
     }
     pass_layers_clear(t);
     gl_field_update(&d->light.field, d->scene);
-    draw_opaque(d, &view);
-    while (panes && layer < LAYER_LIMIT && draw_panes(d, &view, layer)) {
+    draw_opaque(d, view);
+    while (panes && layer < LAYER_LIMIT && draw_panes(d, view, layer)) {
         pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
     }
     pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
     if (d->light.scattering > 0.0f) {
         const mist m = {d->light.scattering, &d->light.lpv->volume, &d->light.lights, &info};
-        pass_air_draw(&d->air, &m, &view, t, layer);
+        pass_air_draw(&d->air, &m, view, t, layer);
     }
-    pass_background_draw(&d->background, &view, t, t->lefts[layer % 2]);
+    pass_background_draw(&d->background, view, t, t->lefts[layer % 2]);
 }
 
 alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,

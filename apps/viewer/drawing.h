@@ -9,6 +9,7 @@
 #include "pass_film.h"
 #include "pass_layers.h"
 #include "pass_shadows.h"
+#include "pass_ssao.h"
 #include "pass_surfaces.h"
 
 typedef struct drawing {
@@ -21,7 +22,8 @@ typedef struct drawing {
     pass_background background;
     pass_film film;
     pass_shadows shadows;
-    pass_air air;     // of a volume's mist
+    pass_air air; // of a volume's mist
+    pass_ssao ssao;
     mode_light light; // of the mode; owned
 } drawing;
 
@@ -33,8 +35,9 @@ typedef struct drawing_options {
     uint32_t width, height;
     bool direct; // lamps and suns shine, in modes that have their light
     bool metals_black;
-    bool normal_maps; // those that are loaded are drawn, where light comes by direction
-    bool level_zero;  // textures are read bilinearly without mip levels, as by render
+    bool normal_maps;  // those that are loaded are drawn, where light comes by direction
+    float ssao_radius; // metres; 0 = no ambient occlusion, as of modes that do not use it
+    bool level_zero;   // textures are read bilinearly without mip levels, as by render
 } drawing_options;
 
 /// Makes it in the current context of OpenGL.
@@ -46,6 +49,8 @@ void drawing_destroy(drawing *d);
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
 /// Draws a frame of light.
 void drawing_draw(drawing *d, const alp_camera *camera);
+/// The same of any view with the size of the targets.
+void drawing_draw_view(drawing *d, const camera_view *view);
 /// Develops it by alp_film_develop's numbers.
 /// @param film  out: exposure becomes the one that was used
 /// @param light NULL, or out: the light; the caller destroys both

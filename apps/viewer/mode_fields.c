@@ -56,6 +56,7 @@ int mode_field_prepare(session *s, const command_line *a, alp_render_options *o,
 void mode_field_bind(const mode_light *light, GLuint program)
 {
     gl_field_bind(&light->field, program);
+    mode_light_bind_ssao(light);
     gl_lights_bind(&light->lights);
 }
 

@@ -49,6 +49,9 @@ void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_light
                     uint32_t light, bool metals_black, const camera_view *view)
 {
     static const GLfloat nothing[4], far = 0.0f;
+    GLint front = GL_CCW; // another one where the picture is a mirror image
+    glGetIntegerv(GL_FRONT_FACE, &front);
+    glFrontFace(GL_CCW);
     glUseProgram(pass->program);
     glBindFramebuffer(GL_FRAMEBUFFER, pass->frame);
     for (GLint i = 0; i < TEXTURES; i++) {
@@ -66,4 +69,5 @@ void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_light
     glUniform1i(UNIFORM_METALS, metals_black);
     glUniform1i(UNIFORM_PEELED, 0);
     gl_scene_draw(scene, GL_SCENE_ALL);
+    glFrontFace((GLenum)front);
 }

@@ -19,7 +19,7 @@ int pass_surfaces_create(const view_mode *mode, bool metals_black, pass_surfaces
 void pass_surfaces_destroy(pass_surfaces *pass);
 /// Whether panes are drawn apart; else surfaces of all kinds are opaque.
 bool pass_surfaces_has_panes(const pass_surfaces *pass, const gl_scene *scene);
-/// Draws the nearest opaque surfaces into opaque_frame.
+/// Draws the nearest opaque surfaces into opaque_frame. @param light NULL of modes without bind
 void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
                                const mode_light *light, const camera_view *view,
                                const gl_targets *targets);

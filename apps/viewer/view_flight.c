@@ -32,23 +32,23 @@ static alp_result develop(flight_job *job, double seconds, alp_image **developed
     }
     alp_image_destroy(light);
     if (result == ALP_OK) {
-        result = drawing_develop(d, context, &film, developed, NULL);
+        result = view_develop(job->view, &film, developed, NULL);
     }
     *exposure = film.exposure;
     return result;
 }
 
 /// Brings the light to a moment of the flight.
-static int move_light(view_job *view, double time, const alp_camera *camera)
+static int move_light(view_job *view, const view_mode *mode, drawing *d, double time,
+                      const alp_camera *camera)
 {
-    const view_mode *mode = view->settings.mode;
-    const flight_run *run = view->drawing.light.source.flight;
+    const flight_run *run = d->light.source.flight;
     int code = EXIT_DONE;
     if (mode->move != NULL) {
-        code = mode->move(&view->session, time, camera, &view->drawing.light);
+        code = mode->move(&view->session, time, camera, &d->light);
     }
     if (code == EXIT_DONE && run != NULL && run->day > 0.0) {
-        code = drawing_set_lighting(&view->drawing, view->session.context, &run->lighting);
+        code = drawing_set_lighting(d, view->session.context, &run->lighting);
     }
     return code;
 }
@@ -61,12 +61,17 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
-    const int moved = move_light(view, time, &camera);
+    int moved = move_light(view, view->settings.mode, &view->drawing, time, &camera);
+    if (moved == EXIT_DONE && view->beside.mode != NULL) {
+        moved = move_light(view, view->beside.mode, &view->beside.drawing, time, &camera);
+    }
     if (moved != EXIT_DONE) {
         return moved;
     }
-    drawing_draw(&view->drawing, &camera);
-    const alp_result result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    alp_result result = view_draw(view, &camera);
+    if (result == ALP_OK) {
+        result = develop(job, frame > 0 ? job->step : 0.0, &developed, &exposure);
+    }
     const int code = result == ALP_OK ? view_save(view, &camera, exposure, developed, file)
                                       : session_end(&view->session, result);
     alp_image_destroy(developed);

@@ -7,16 +7,30 @@
 #include "gl_context.h"
 #include "view_options.h"
 
+/// The second mode of a picture.
+typedef struct view_beside {
+    command_line arguments; // --with is --beside
+    const view_mode *mode;  // NULL without one
+    drawing drawing;
+} view_beside;
+
 typedef struct view_job {
     const command_line *arguments;
     view_settings settings;
     session session;
     gl_context gl;
     drawing drawing;
+    view_beside beside;
     flight path;          // of the camera; empty where the light has the flight
     alp_image *reference; // NULL without one
     double prepare_seconds;
 } view_job;
+
+/// Draws a frame. @return as alp_render, of modes that trace paths
+alp_result view_draw(view_job *job, const alp_camera *camera);
+/// Develops it. @param film, developed, light as of drawing_develop
+alp_result view_develop(view_job *job, alp_film_options *film, alp_image **developed,
+                        alp_image **light);
 
 /// Writes a picture of -o. @return the exit code
 int view_picture(view_job *job);

@@ -4,6 +4,7 @@
 #include "lightmaps.h"
 #include "mode_fields.h"
 #include "shader_list.h"
+#include "shaders/bindings.h"
 
 #include <stdlib.h>
 
@@ -77,6 +78,17 @@ static int prepare_direct(session *s, const command_line *a, alp_render_options 
     return EXIT_DONE;
 }
 
+static int prepare_paths(session *s, const command_line *a, alp_render_options *o,
+                         mode_light *light)
+{
+    (void)s;
+    light->paths =
+        (path_picture){.options = *o, .samples = (uint32_t)a->values[OPTION_SAMPLES].whole};
+    light->paths.options.method = ALP_RENDER_REFERENCE;
+    light->paths.options.without_direct = a->values[OPTION_DIRECT].choice == 0;
+    return EXIT_DONE;
+}
+
 static void bind_lights(const mode_light *light, GLuint program)
 {
     (void)program;
@@ -87,13 +99,15 @@ static void bind_ambient(const mode_light *light, GLuint program)
 {
     (void)program;
     gl_ambient_bind(&light->ambient);
+    mode_light_bind_ssao(light);
     gl_lights_bind(&light->lights);
 }
 
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_TEXELS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS | USES_SSAO,
+    TRACED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_PATHS
 };
 
 /// In the order of the choices of --with.
@@ -177,6 +191,10 @@ static const view_mode modes[] = {
      .method = ALP_RENDER_LIGHTMAP,
      .prepare = prepare_blend,
      .bind = bind_lightmap},
+    {.fragment = &shader_none_frag,
+     .uses = TRACED,
+     .method = ALP_RENDER_REFERENCE,
+     .prepare = prepare_paths},
 };
 
 const view_mode *view_mode_of(const command_line *a)
@@ -212,17 +230,22 @@ int view_mode_check(const command_line *a)
                    {"--ao-falloff", OPTION_AO_FALLOFF, USES_OCCLUSION},
                    {"--ao-cone", OPTION_AO_CONE, USES_OCCLUSION},
                    {"--ao-distribution", OPTION_AO_DISTRIBUTION, USES_OCCLUSION},
+                   {"--samples", OPTION_SAMPLES, USES_PATHS},
+                   {"--ssao", OPTION_SSAO, USES_SSAO},
+                   {"--ssao-radius", OPTION_SSAO_RADIUS, USES_SSAO},
                    {"--read", OPTION_READ, USES_FIELD},
                    {"--normal-maps", OPTION_NORMAL_MAPS, USES_NORMALS},
                    {"--probes", OPTION_PROBES, USES_PROBES},
                    {"--spacing", OPTION_SPACING, USES_PROBES},
                    {"--bounds", OPTION_BOUNDS, USES_PROBES},
                    {"--lookup", OPTION_LOOKUP, USES_PROBES}};
-    const unsigned uses = view_mode_of(a)->uses;
+    const option_value *beside = &a->values[OPTION_BESIDE];
+    const unsigned uses = view_mode_of(a)->uses | (beside->given ? modes[beside->choice].uses : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].use & uses) == 0 && a->values[read_by[i].id].given) {
-            return usage_error(COMMAND_VIEW, "%s: does not apply to --with %s", read_by[i].name,
-                               a->values[OPTION_WITH].text);
+            return usage_error(COMMAND_VIEW, "%s: does not apply to --with %s%s%s", read_by[i].name,
+                               a->values[OPTION_WITH].text, beside->given ? " --beside " : "",
+                               beside->given ? beside->text : "");
         }
     }
     const bool card = a->values[OPTION_READ].choice == READ_PIXEL;
@@ -230,12 +253,20 @@ int view_mode_check(const command_line *a)
         return usage_error(COMMAND_VIEW, "%s: needs --read pixel",
                            a->values[OPTION_GLOSS].given ? "--gloss" : "--media");
     }
-    return field_check(a, view_mode_of(a)->field.model);
+    const field_model own = view_mode_of(a)->field.model;
+    return field_check(a, own == FIELD_OTHER && beside->given ? modes[beside->choice].field.model
+                                                              : own);
 }
 
 bool view_mode_flies(const command_line *a)
 {
     return view_mode_of(a)->field.model == FIELD_AMBIENCE;
+}
+
+void mode_light_bind_ssao(const mode_light *light)
+{
+    glBindTextureUnit(TEXTURE_SSAO, light->ssao);
+    glUniform1i(UNIFORM_SSAO, light->ssao != 0);
 }
 
 void mode_light_destroy(mode_light *light)

@@ -9,6 +9,7 @@
 #include "gl_lights.h"
 #include "gl_program.h"
 #include "lpv_frame.h"
+#include "path_picture.h"
 #include "picture_fields.h"
 
 /// The light of a mode on the graphics card. Parts of other modes are empty.
@@ -20,6 +21,8 @@ typedef struct mode_light {
     lpv_frame *lpv;      // the volume on the card that `field` reads, or NULL
     float scattering;    // of mist that shows its light, 1/metre
     gl_lights lights;
+    path_picture paths;
+    GLuint ssao; // share of ambient light that is open, of pass_ssao; 0 = all of it
 } mode_light;
 
 /// Options that a mode reads.
@@ -37,9 +40,11 @@ typedef enum mode_use {
     USES_LAYOUT = 1024, // --atlas
     USES_TEXELS = 2048, // rays of texels
     USES_OCCLUSION = 4096,
+    USES_SSAO = 8192,
+    USES_PATHS = 16384, // --samples; paths make the picture, and nothing is drawn
     // Not options.
-    USES_PANES = 8192,  // light goes through panes
-    USES_DIRECT = 16384 // light comes straight from lamps and suns
+    USES_PANES = 32768, // light goes through panes
+    USES_DIRECT = 65536 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {
@@ -61,10 +66,13 @@ typedef struct view_mode {
 
 /// The mode of --with.
 const view_mode *view_mode_of(const command_line *arguments);
-/// Refuses options that the mode does not use. @return EXIT_DONE, or EXIT_USAGE after a message
+/// Refuses options that no mode of the picture uses. @return EXIT_DONE, or EXIT_USAGE after a
+/// message
 int view_mode_check(const command_line *arguments);
 /// Whether light comes from a field that moves along the flight of --path also in a single picture.
 bool view_mode_flies(const command_line *arguments);
 void mode_light_destroy(mode_light *light);
+/// Binds ambient occlusion of the screen, and sets its uniform in the current program.
+void mode_light_bind_ssao(const mode_light *light);
 
 #endif

@@ -53,9 +53,10 @@ int view_picture(view_job *job)
     alp_result result = alp_render_find_camera(s->scene, &job->settings.render, &camera);
     const double start = clock_seconds();
     if (result == ALP_OK) {
-        drawing_draw(&job->drawing, &camera);
-        result =
-            drawing_develop(&job->drawing, s->context, &job->settings.film, &developed, &light);
+        result = view_draw(job, &camera);
+    }
+    if (result == ALP_OK) {
+        result = view_develop(job, &job->settings.film, &developed, &light);
     }
     const int code =
         result == ALP_OK ? finish(job, &camera, developed, light, start) : session_end(s, result);

@@ -6,8 +6,10 @@
 #include "lighting.h"
 #include "output.h"
 #include "picture_texts.h"
+#include "view_capture.h"
 #include "view_job.h"
 
+#include <math.h>
 #include <stdio.h>
 
 void view_print_done(const view_job *job, const char *what, double draw_seconds)
@@ -40,35 +42,65 @@ int view_save(view_job *job, const alp_camera *camera, double exposure, alp_imag
     return session_end(s, result);
 }
 
-/// Makes the light of the mode and all that draws.
-static int prepare(view_job *job)
+/// Radius of ambient occlusion where none is given, as a share of the scene's diagonal.
+static const double SSAO_SHARE = 0.05;
+
+/// @return metres, 0 without ambient occlusion
+static float ssao_radius(const session *s, const command_line *a)
 {
-    view_settings *v = &job->settings;
+    const alp_scene_info info = alp_scene_get_info(s->scene);
+    double diagonal = 0.0;
+    for (int k = 0; k < 3; k++) {
+        diagonal = hypot(diagonal, (double)info.bounds_max[k] - (double)info.bounds_min[k]);
+    }
+    return a->values[OPTION_SSAO].choice == 0          ? 0.0f
+           : a->values[OPTION_SSAO_RADIUS].choice >= 0 ? (float)(SSAO_SHARE * diagonal)
+                                                       : (float)a->values[OPTION_SSAO_RADIUS].real;
+}
+
+/// Makes the light of a mode and all that draws it.
+/// @param a whose --with is the mode
+static int prepare_mode(view_job *job, const command_line *a, const view_mode *mode, drawing *d)
+{
+    alp_render_options *render = &job->settings.render;
     session *s = &job->session;
-    const double start = clock_seconds();
-    const bool direct =
-        (v->mode->uses & USES_SWITCH) == 0 || job->arguments->values[OPTION_DIRECT].choice == 1;
-    const bool normal_maps = (v->mode->uses & USES_NORMALS) != 0 &&
-                             job->arguments->values[OPTION_NORMAL_MAPS].choice == 1;
+    const bool normal_maps =
+        (mode->uses & USES_NORMALS) != 0 && a->values[OPTION_NORMAL_MAPS].choice == 1;
     drawing_options options = {.context = s->context,
-                               .mode = v->mode,
-                               .lighting = &v->render.lighting,
-                               .width = v->render.width,
-                               .height = v->render.height,
-                               .direct = direct,
+                               .mode = mode,
+                               .lighting = &render->lighting,
+                               .width = render->width,
+                               .height = render->height,
+                               .direct = (mode->uses & USES_SWITCH) == 0 ||
+                                         a->values[OPTION_DIRECT].choice == 1,
                                .normal_maps = normal_maps,
-                               .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
-    v->render.progress = session_progress;
-    v->render.progress_user = s;
-    interrupt_defer();
+                               .metals_black = a->values[OPTION_METALS].choice == 1,
+                               .ssao_radius = ssao_radius(s, a)};
     int code = normal_maps ? session_end(s, alp_scene_load_normal_maps(s->scene)) : EXIT_DONE;
-    if (code == EXIT_DONE && v->mode->prepare != NULL) {
-        code = v->mode->prepare(s, job->arguments, &v->render, &options.light);
+    if (code == EXIT_DONE && mode->prepare != NULL) {
+        code = mode->prepare(s, a, render, &options.light);
     }
     if (code == EXIT_DONE) {
-        code = drawing_create(s->scene, &options, &job->drawing);
-    } else {
-        mode_light_destroy(&options.light);
+        return drawing_create(s->scene, &options, d);
+    }
+    mode_light_destroy(&options.light);
+    return code;
+}
+
+static int prepare(view_job *job)
+{
+    session *s = &job->session;
+    view_beside *beside = &job->beside;
+    const double start = clock_seconds();
+    job->settings.render.progress = session_progress;
+    job->settings.render.progress_user = s;
+    interrupt_defer();
+    int code = prepare_mode(job, job->arguments, job->settings.mode, &job->drawing);
+    if (code == EXIT_DONE && job->arguments->values[OPTION_BESIDE].given) {
+        beside->arguments = *job->arguments;
+        beside->arguments.values[OPTION_WITH] = job->arguments->values[OPTION_BESIDE];
+        beside->mode = view_mode_of(&beside->arguments);
+        code = prepare_mode(job, &beside->arguments, beside->mode, &beside->drawing);
     }
     code = code == EXIT_DONE ? gl_context_check(&job->gl) : code;
     progress_clear(&s->progress);
@@ -97,9 +129,12 @@ static int run_scene(view_job *job)
     code = code == EXIT_DONE && a->values[OPTION_PICTURES].given ? view_flight_read(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
     if (code == EXIT_DONE) {
-        code = a->values[OPTION_PICTURES].given ? view_flight(job) : view_picture(job);
+        code = a->values[OPTION_PICTURES].given  ? view_flight(job)
+               : a->values[OPTION_CAPTURE].given ? view_capture(job)
+                                                 : view_picture(job);
     }
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
+    drawing_destroy(&job->beside.drawing);
     drawing_destroy(&job->drawing);
     flight_clear(&job->path);
     alp_image_destroy(job->reference);

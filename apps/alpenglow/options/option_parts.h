@@ -10,6 +10,11 @@
 #define SKY_COMMANDS (LIGHT_COMMANDS & ~IN_LPV)
 #define SCENE_COMMANDS (LIGHT_COMMANDS | IN_INFO)
 
+/// Modes of view: choices of --with and --beside.
+#define VIEW_MODES                                                                                 \
+    "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"                     \
+    "environment|probes|ambience|lpv|ao|sh|blend|reference"
+
 typedef struct option_part {
     const option *rows; // [count]
     size_t count;
@@ -26,6 +31,7 @@ extern const option_part option_part_lpv;
 extern const option_part option_part_ao;
 extern const option_part option_part_run;
 extern const option_part option_part_view;
+extern const option_part option_part_view_more;
 extern const option_part option_part_later;
 
 #endif

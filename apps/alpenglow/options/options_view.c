@@ -26,8 +26,7 @@ static const option rows[] = {
      .kind = KIND_CHOICE,
      .name = "--with",
      .value = "MODE",
-     .choices = "none|albedo|lightmap|direct|constant|hemisphere|ground-map|ambient-cube|"
-                "environment|probes|ambience|lpv|ao|sh|blend",
+     .choices = VIEW_MODES,
      .help = "Light of the picture, required.\n"
              "none: emission alone.\n"
              "albedo: as render --with albedo.\n"
@@ -43,7 +42,8 @@ static const option rows[] = {
              "ao: a baked map of occlusion, as render --with ao shows one.\n"
              "sh: a light map by direction, spherical harmonics of two bands, which reads normal "
              "maps.\n"
-             "blend: as lightmap --atlas blend."},
+             "blend: as lightmap --atlas blend.\n"
+             "reference: paths, as render --with reference (--samples)."},
     {.id = OPTION_DIRECT,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
@@ -52,7 +52,8 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "on",
-     .help = "Light straight from lamps and suns, for fields and the models of ambient light."},
+     .help = "Light straight from lamps and suns, for fields, the models of ambient light "
+             "and reference."},
     {.id = OPTION_READ,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,

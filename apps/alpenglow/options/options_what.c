@@ -204,14 +204,14 @@ static const option rows[] = {
              "its intensity; else the emission of materials with an emission texture. "
              "In the units of the file (--units)."},
     {.id = OPTION_CONVENTION,
-     .commands = IN_SH,
+     .commands = IN_SH | IN_VIEW,
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--convention",
      .value = "three|filament|gltf|godot|unity|ambient-cube",
      .choices = "three|filament|gltf|godot|unity|ambient-cube",
      .initial = "three",
-     .help = "Numbers to print, in the order of their reader.\n"
+     .help = "Numbers to print, in the order of their reader; in view for --capture.\n"
              "three: LightProbe of three.js, radiance.\n"
              "filament: irradiance(3, sh), E / pi as a polynomial.\n"
              "gltf: irradianceCoefficients of EXT_lights_image_based.\n"

@@ -20,6 +20,8 @@
 #define BUFFER_FIELD_OBJECTS 12  // vec4 [surface][9] spherical harmonics of irradiance
 #define BUFFER_TANGENTS 13       // vec4 [vertex]; one element without normal maps
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
+#define BUFFER_SH_PARTS 0        // of gl_cube: float [part][9][3]
+#define BUFFER_SH 1              // of gl_cube: float [9][3]
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0
@@ -41,6 +43,7 @@
 #define TEXTURE_FIELD 17
 #define TEXTURE_PROBE_LIGHT 18
 #define TEXTURE_PROBE_MOMENTS 19
+#define TEXTURE_SSAO 22
 
 // Uniforms of all passes that know the camera.
 #define UNIFORM_ORIGIN 0   // vec3, metres
@@ -64,6 +67,7 @@
 #define UNIFORM_SURFACE 20    // uint, of the scene
 #define UNIFORM_FIELD_READ 21 // int, READ_...
 #define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
+#define UNIFORM_SSAO 48       // bool, whether TEXTURE_SSAO counts
 // Of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu
@@ -73,6 +77,8 @@
 #define UNIFORM_SKY_DOWN 10  // vec3, radiance
 #define UNIFORM_SKY_TURN 11  // float, turns of the whole circle
 #define UNIFORM_SUN_COUNT 12 // uint
+// Of pass_ssao.
+#define UNIFORM_SSAO_RADIUS 8 // float, metres
 // Of pass_film.
 #define UNIFORM_GAIN 8     // float, 2^exposure
 #define UNIFORM_TONE 9     // int, an alp_tone

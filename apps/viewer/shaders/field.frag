@@ -5,6 +5,7 @@
 #include "place.glsl"
 #include "lpv.glsl"
 #include "probes.glsl"
+#include "ssao.glsl"
 
 layout(binding = TEXTURE_FIELD) uniform sampler2D field_picture; // [pixel] irradiance
 layout(std430, binding = BUFFER_FIELD_OBJECTS) readonly buffer field_object_list {
@@ -72,7 +73,7 @@ void main()
 {
     surface s = read_surface(true);
     place p = find_place();
-    vec3 irradiance = field_irradiance(p) + direct_irradiance(p);
+    vec3 irradiance = open_share() * field_irradiance(p) + direct_irradiance(p);
     vec3 diffuse = s.albedo / ALP_SH_A0 * irradiance;
     vec3 light = s.emission + s.kept * (gloss ? add_gloss(diffuse, s.albedo, p) : diffuse);
     picture = vec4(s.dark ? vec3(0.0) : light, 1.0);

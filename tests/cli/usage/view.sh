@@ -44,3 +44,20 @@ try $flight --with ambience --time 1
 try $view --with lpv --bounces 2
 try $view --with hemisphere --size 64
 try $view --with lightmap --samples 4
+capture="view scene.glb --with lightmap --capture"
+try $capture 1,2
+try $capture 1,2,3 -o out.png
+try $capture 1,2,3 --pictures frames
+try $capture 1,2,3 --camera 0
+try $capture 1,2,3 --resolution 8x8
+try $view --with lightmap --convention gltf
+try $view --with none --divider 0.5
+try $view --with none --beside albedo --divider 2
+try $view --with none --beside albedo --size 64
+try $capture 1,2,3 --beside albedo
+try view scene.glb --with reference --capture 1,2,3
+try $view --with reference --size 64
+try $view --with lightmap --ssao on
+try $view --with hemisphere --ssao-radius 1
+try $view --with hemisphere --ssao on --ssao-radius 0
+try view scene.glb --with hemisphere --ssao on --capture 1,2,3
