@@ -98,8 +98,8 @@ ALWAYS_INLINE passed arrive(const row_work *w, reading r, uint32_t x, bool block
 }
 
 /// Flux that blockers reflect of the light that leaves a cell by direction d.
-ALWAYS_INLINE float reflected_flux(const row_work *w, reading r, uint32_t x, int d, size_t a,
-                                   size_t b, size_t c)
+ALWAYS_INLINE float reflected(const row_work *w, reading r, uint32_t x, int d, size_t a, size_t b,
+                              size_t c)
 {
     const float sign = d % 2 == 0 ? 1.0f : -1.0f;
     const size_t s = w->light_step;
@@ -152,12 +152,9 @@ ALWAYS_INLINE void gather_row(const row_work *w, bool blocked, bool reflects, fl
         vy += give_aside * (z0.c + z1.c);
         float i = quarter * (FAR * far + SIDE * sides);
         if (reflects) {
-            const float rx0 = reflected_flux(w, r, x, 0, 1, 2, 3),
-                        rx1 = reflected_flux(w, r, x, 1, 1, 2, 3);
-            const float ry0 = reflected_flux(w, r, x, 2, 2, 3, 1),
-                        ry1 = reflected_flux(w, r, x, 3, 2, 3, 1);
-            const float rz0 = reflected_flux(w, r, x, 4, 3, 1, 2),
-                        rz1 = reflected_flux(w, r, x, 5, 3, 1, 2);
+            const float rx0 = reflected(w, r, x, 0, 1, 2, 3), rx1 = reflected(w, r, x, 1, 1, 2, 3);
+            const float ry0 = reflected(w, r, x, 2, 2, 3, 1), ry1 = reflected(w, r, x, 3, 2, 3, 1);
+            const float rz0 = reflected(w, r, x, 4, 3, 1, 2), rz1 = reflected(w, r, x, 5, 3, 1, 2);
             i += quarter * ((rx0 + rx1) + (ry0 + ry1) + (rz0 + rz1));
             vx += half * (rx1 - rx0);
             vy += half * (ry1 - ry0);
