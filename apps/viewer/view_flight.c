@@ -53,6 +53,20 @@ static int move_light(view_job *view, double time, const alp_camera *camera)
     return code;
 }
 
+/// Brings the object to a moment of the flight.
+static int move_object(view_job *view, double time)
+{
+    float position[3];
+    if (view->object_path.count == 0) {
+        return EXIT_DONE;
+    }
+    const flight_camera at = flight_at(&view->object_path, time);
+    for (int k = 0; k < 3; k++) {
+        position[k] = (float)at.position[k];
+    }
+    return drawing_move_object(&view->drawing, view->session.context, position);
+}
+
 static int draw_frame(flight_job *job, uint64_t frame, const char *file)
 {
     view_job *view = job->view;
@@ -61,7 +75,8 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
-    const int moved = move_light(view, time, &camera);
+    int moved = move_light(view, time, &camera);
+    moved = moved == EXIT_DONE ? move_object(view, time) : moved;
     if (moved != EXIT_DONE) {
         return moved;
     }

@@ -14,6 +14,7 @@ typedef struct view_job {
     gl_context gl;
     drawing drawing;
     flight path;          // of the camera; empty where the light has the flight
+    flight object_path;   // of --object; empty without one
     alp_image *reference; // NULL without one
     double prepare_seconds;
 } view_job;

@@ -37,6 +37,7 @@ typedef enum mode_use {
     USES_LAYOUT = 1024, // --atlas
     USES_TEXELS = 2048, // rays of texels
     USES_OCCLUSION = 4096,
+    USES_OBJECT = 32768, // --object
     // Not options.
     USES_PANES = 8192,  // light goes through panes
     USES_DIRECT = 16384 // light comes straight from lamps and suns

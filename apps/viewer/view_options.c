@@ -4,8 +4,11 @@
 #include "cameras.h"
 #include "film.h"
 #include "lighting.h"
+#include "objects.h"
 #include "output.h"
 #include "views.h"
+
+#include <string.h>
 
 /// Refuses outputs that are missing, and options of the other kind of output.
 static int check_output(const command_line *a)
@@ -16,6 +19,7 @@ static int check_output(const command_line *a)
         bool flight;
     } read_by[] = {{"--frames", OPTION_FRAMES, true},
                    {"--path", OPTION_PATH, true},
+                   {"--object-path", OPTION_OBJECT_PATH, true},
                    {"--camera", OPTION_CAMERA, false},
                    {"--time", OPTION_TIME, false},
                    {"--reference", OPTION_REFERENCE, false},
@@ -64,6 +68,21 @@ static int check_reference(const command_line *a)
     return EXIT_DONE;
 }
 
+/// --object and its path.
+static int check_object(const command_line *a, alp_render_object *object)
+{
+    const option_value *path = &a->values[OPTION_OBJECT_PATH];
+    if (path->given && !a->values[OPTION_OBJECT].given) {
+        return usage_error(COMMAND_VIEW, "--object-path: needs --object");
+    }
+    if (path->given && strcmp(path->text, "-") == 0 && a->values[OPTION_PATH].given &&
+        strcmp(a->values[OPTION_PATH].text, "-") == 0) {
+        return usage_error(COMMAND_VIEW, "--path and --object-path: both are standard input; give "
+                                         "a file for one");
+    }
+    return object_read(a, (const double[3]){0.0, 0.0, 0.0}, object);
+}
+
 static int read_light(const command_line *a, view_settings *s)
 {
     alp_render_options *o = &s->render;
@@ -98,6 +117,7 @@ int view_settings_read(const command_line *a, view_settings *s)
     if (code == EXIT_DONE) {
         code = camera_read(a, (const double[3]){0.0, 0.0, 0.0}, &s->render);
     }
+    code = code == EXIT_DONE ? check_object(a, &s->render.object) : code;
     s->film = film_read(a, s->mode->method);
     if (code == EXIT_DONE && a->values[OPTION_OUTPUT].given) {
         code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);

@@ -4,6 +4,7 @@
 #include "cameras.h"
 #include "interrupt.h"
 #include "lighting.h"
+#include "objects.h"
 #include "output.h"
 #include "picture_texts.h"
 #include "view_job.h"
@@ -55,6 +56,7 @@ static int prepare(view_job *job)
                                .lighting = &v->render.lighting,
                                .width = v->render.width,
                                .height = v->render.height,
+                               .object = v->render.object,
                                .direct = direct,
                                .normal_maps = normal_maps,
                                .metals_black = job->arguments->values[OPTION_METALS].choice == 1};
@@ -86,6 +88,18 @@ static int load_reference(view_job *job)
                : EXIT_DONE;
 }
 
+/// Places the object of --object in the scene that was loaded, and reads its path.
+static int place_object(view_job *job)
+{
+    const command_line *a = job->arguments;
+    const alp_scene_info info = alp_scene_get_info(job->session.scene);
+    const int code = object_read(a, info.origin, &job->settings.render.object);
+    return code == EXIT_DONE && a->values[OPTION_OBJECT_PATH].given
+               ? flight_read_places(a->values[OPTION_OBJECT_PATH].text, info.origin,
+                                    &job->object_path)
+               : code;
+}
+
 static int run_scene(view_job *job)
 {
     const command_line *a = job->arguments;
@@ -93,6 +107,7 @@ static int run_scene(view_job *job)
     alp_image *sky = NULL;
     int code = lighting_open(&job->session, a, &v->render.lighting, &v->lamps, &sky);
     code = code == EXIT_DONE ? camera_find(&job->session, a, &v->render) : code;
+    code = code == EXIT_DONE ? place_object(job) : code;
     code = code == EXIT_DONE ? load_reference(job) : code;
     code = code == EXIT_DONE && a->values[OPTION_PICTURES].given ? view_flight_read(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
@@ -102,6 +117,7 @@ static int run_scene(view_job *job)
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
     drawing_destroy(&job->drawing);
     flight_clear(&job->path);
+    flight_clear(&job->object_path);
     alp_image_destroy(job->reference);
     alp_image_destroy(sky);
     session_close(&job->session);
