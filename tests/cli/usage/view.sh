@@ -44,3 +44,13 @@ try $flight --with ambience --time 1
 try $view --with lpv --bounces 2
 try $view --with hemisphere --size 64
 try $view --with lightmap --samples 4
+for mode in none albedo lightmap ao sh blend; do
+    try $view --with $mode --object sphere,0,0,0,1
+done
+for object in "" cube,0,0,0,1 sphere sphere,0,0,0 sphere,0,0,0,0 teapot,0,0,0,1,2; do
+    try $view --with direct --object "$object"
+done
+try $view --with direct --object sphere,0,0,0,1 --object-path path.csv
+try $flight --with direct --object-path path.csv
+try $flight --with lightmap --object-path path.csv
+try view scene.glb --path - --pictures frames --with direct --object sphere,0,0,0,1 --object-path -
