@@ -6,6 +6,7 @@
 #include "interrupt.h"
 #include "lighting.h"
 #include "lightmaps.h"
+#include "objects.h"
 #include "output.h"
 #include "picture_fields.h"
 #include "session.h"
@@ -14,12 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static bool read_numbers(const char *text, double *numbers, int count)
-{
-    const char *end = number_parse_list(text, numbers, count);
-    return end != NULL && *end == '\0';
-}
 
 /// Methods and fields of the choices of --with, in their order.
 static const struct {
@@ -100,31 +95,6 @@ static int check_method(const command_line *a, const alp_render_options *o)
     return EXIT_DONE;
 }
 
-/// "teapot,X,Y,Z,RADIUS"
-static int read_object(const command_line *a, const double origin[3], alp_render_options *o)
-{
-    enum { NUMBERS = 4 };
-    const option_value *object = &a->values[OPTION_OBJECT];
-    double n[NUMBERS] = {0.0};
-    if (!object->given) {
-        return EXIT_DONE;
-    }
-    const bool sphere = strncmp(object->text, "sphere,", 7) == 0;
-    const bool teapot = strncmp(object->text, "teapot,", 7) == 0;
-    if ((!sphere && !teapot) || !read_numbers(object->text + 7, n, NUMBERS) || n[3] <= 0.0) {
-        return usage_error(COMMAND_RENDER,
-                           "--object: '%s' is no object; give sphere,X,Y,Z,RADIUS or "
-                           "teapot,X,Y,Z,RADIUS in metres",
-                           object->text);
-    }
-    o->object.kind = sphere ? ALP_OBJECT_SPHERE : ALP_OBJECT_TEAPOT;
-    for (int k = 0; k < 3; k++) {
-        o->object.position[k] = (float)(n[k] - origin[k]);
-    }
-    o->object.radius = (float)n[3];
-    return EXIT_DONE;
-}
-
 /// --hemicube and --show.
 static int read_hemicube(const command_line *a, alp_render_options *o)
 {
@@ -173,7 +143,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
     code = code == EXIT_DONE ? field_check(a, model_of(a)) : code;
-    code = code == EXIT_DONE ? read_object(a, (const double[3]){0.0, 0.0, 0.0}, o) : code;
+    code = code == EXIT_DONE ? object_read(a, (const double[3]){0.0, 0.0, 0.0}, &o->object) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);
     return code == EXIT_DONE ? lighting_read(a, &o->lighting, lamps) : code;
@@ -184,7 +154,7 @@ static int place(const session *s, const command_line *a, alp_render_options *o)
 {
     const alp_scene_info info = alp_scene_get_info(s->scene);
     const int code = camera_find(s, a, o);
-    return code == EXIT_DONE ? read_object(a, info.origin, o) : code;
+    return code == EXIT_DONE ? object_read(a, info.origin, &o->object) : code;
 }
 
 /// @param film options of development; returns the exposure that was used

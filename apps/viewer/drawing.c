@@ -5,6 +5,7 @@
 #include "picture.h"
 
 #include <math.h>
+#include <string.h>
 
 /// More panes than any eye sees through.
 enum { LAYER_LIMIT = 4096 };
@@ -15,7 +16,12 @@ static bool reads_pixels(const drawing *d)
     return (d->surfaces.mode->uses & USES_FIELD) != 0 && d->light.field.read == READ_PIXEL;
 }
 
-/// Draws the shadows of what does not move once.
+static void draw_shadows(const drawing *d)
+{
+    pass_shadows_draw(&d->shadows, &d->drawn, gl_object_drawn(&d->object), &d->light.lights);
+}
+
+/// Draws the shadows, which stay until something moves.
 /// @param seen whether they light surfaces, beside a volume
 static int add_lights(const alp_scene *scene, const alp_lighting_options *lighting, bool seen,
                       drawing *d)
@@ -24,7 +30,7 @@ static int add_lights(const alp_scene *scene, const alp_lighting_options *lighti
     d->light.lights.unseen = !seen;
     code = code == EXIT_DONE ? pass_shadows_create(&d->shadows) : code;
     if (code == EXIT_DONE) {
-        pass_shadows_draw(&d->shadows, &d->drawn, &d->light.lights);
+        draw_shadows(d);
     }
     return code;
 }
@@ -35,6 +41,12 @@ static int add_ssao(const drawing_options *o, drawing *d)
     const int code = pass_ssao_create(&d->targets, panes, o->ssao_radius, &d->ssao);
     d->light.ssao = d->ssao.share;
     return code;
+}
+
+static int place_object(alp_context *context, const alp_render_object *object, drawing *d)
+{
+    const uint32_t first = alp_scene_get_geometry(d->scene).triangle_count;
+    return gl_object_place(context, object, first, &d->object);
 }
 
 int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
@@ -55,6 +67,9 @@ int drawing_create(const alp_scene *scene, const drawing_options *o, drawing *d)
     code = code == EXIT_DONE ? pass_film_create(&d->film) : code;
     code =
         code == EXIT_DONE ? gl_scene_create(scene, o->level_zero, o->normal_maps, &d->drawn) : code;
+    if (code == EXIT_DONE && o->object.kind != ALP_OBJECT_NONE) {
+        code = place_object(o->context, &o->object, d);
+    }
     if (code == EXIT_DONE && d->light.scattering > 0.0f) {
         code = pass_air_create(&d->air);
     }
@@ -70,6 +85,7 @@ void drawing_destroy(drawing *d)
 {
     mode_light_destroy(&d->light);
     pass_ssao_destroy(&d->ssao);
+    gl_object_destroy(&d->object);
     gl_scene_destroy(&d->drawn);
     pass_air_destroy(&d->air);
     pass_shadows_destroy(&d->shadows);
@@ -91,12 +107,29 @@ int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_op
     return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, seen, d) : code;
 }
 
+int drawing_move_object(drawing *d, alp_context *context, const float position[3])
+{
+    alp_render_object object = d->object.what;
+    memcpy(object.position, position, sizeof object.position);
+    const int code = place_object(context, &object, d);
+    if (code == EXIT_DONE && d->shadows.program != 0) {
+        draw_shadows(d);
+    }
+    return code;
+}
+
 static void draw_opaque(const drawing *d, const camera_view *view)
 {
+    const gl_scene *object = gl_object_drawn(&d->object);
     if (reads_pixels(d)) {
-        pass_field_draw_opaque(&d->field, &d->light.field, &d->drawn, view, &d->targets);
+        pass_field_draw_opaque(&d->field, &d->light.field, &d->drawn, object, view, &d->targets);
     }
     pass_surfaces_draw_opaque(&d->surfaces, &d->drawn, &d->light, view, &d->targets);
+    if (object != NULL) {
+        mode_light own = d->light; // the same, read at other places
+        own.field = d->object.field;
+        pass_surfaces_add_object(&d->surfaces, object, &own, view, &d->targets);
+    }
 }
 
 /// Draws one layer of panes. @return whether it shows anything
@@ -116,6 +149,7 @@ static void light_volume(drawing *d, const camera_view *view)
     const alp_scene_info info = alp_scene_get_info(d->scene);
     lpv_frame_scene in = {.scene = d->scene,
                           .drawn = &d->drawn,
+                          .object = gl_object_drawn(&d->object),
                           .lights = &d->light.lights,
                           .camera = view,
                           .metals_black = d->surfaces.metals_black};
@@ -147,6 +181,7 @@ void drawing_draw_view(drawing *d, const camera_view *view)
         pass_ssao_draw(&d->ssao, &d->drawn, view, t);
     }
     pass_layers_clear(t);
+    gl_object_update(&d->object, &d->light.field);
     gl_field_update(&d->light.field, d->scene);
     draw_opaque(d, view);
     while (panes && layer < LAYER_LIMIT && draw_panes(d, view, layer)) {

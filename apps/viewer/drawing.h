@@ -3,6 +3,7 @@
 #ifndef VIEWER_DRAWING_H
 #define VIEWER_DRAWING_H
 
+#include "gl_object.h"
 #include "pass_air.h"
 #include "pass_background.h"
 #include "pass_field.h"
@@ -16,6 +17,7 @@ typedef struct drawing {
     const alp_scene *scene;
     gl_targets targets;
     gl_scene drawn;
+    gl_object object; // that moves; empty without one
     pass_surfaces surfaces;
     pass_field field; // of modes that read a field at pixels
     pass_layers layers;
@@ -33,7 +35,8 @@ typedef struct drawing_options {
     mode_light light; // of the mode; drawing_create takes it over, also where it fails
     const alp_lighting_options *lighting;
     uint32_t width, height;
-    bool direct; // lamps and suns shine, in modes that have their light
+    alp_render_object object; // beside the scene; the mode has USES_OBJECT
+    bool direct;              // lamps and suns shine, in modes that have their light
     bool metals_black;
     bool normal_maps;  // those that are loaded are drawn, where light comes by direction
     float ssao_radius; // metres; 0 = no ambient occlusion, as of modes that do not use it
@@ -47,6 +50,8 @@ void drawing_destroy(drawing *d);
 
 /// Changes sky, suns and lamps. @return EXIT_DONE, or EXIT_FAILED
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
+/// Moves the object to a place, metres. @return EXIT_DONE, or EXIT_FAILED after a message
+int drawing_move_object(drawing *d, alp_context *context, const float position[3]);
 /// Draws a frame of light.
 void drawing_draw(drawing *d, const alp_camera *camera);
 /// The same of any view with the size of the targets.

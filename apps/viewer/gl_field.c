@@ -21,15 +21,20 @@ static GLuint make_buffer(size_t size)
     return buffer;
 }
 
-void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
-                     gl_field *d)
+static void make_buffers(const alp_scene *scene, gl_field *d)
 {
     const alp_scene_info info = alp_scene_get_info(scene);
     const size_t vertices = alp_scene_get_geometry(scene).vertex_count;
     enum { OBJECT_SIZE = FIELD_OBJECT_COEFFICIENTS * 4 * sizeof(float) };
+    d->vertices = make_buffer(d->read == READ_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
+    d->objects = make_buffer(d->read == READ_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
+}
+
+void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
+                     gl_field *d)
+{
     *d = (gl_field){.read = read, .workers = 1};
-    d->vertices = make_buffer(read == READ_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
-    d->objects = make_buffer(read == READ_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
+    make_buffers(scene, d);
     glCreateTextures(GL_TEXTURE_2D, 1, &d->pixels);
     const bool pixels = read == READ_PIXEL;
     glTextureStorage2D(d->pixels, 1, GL_RGBA32F, pixels ? (GLsizei)width : 1,
@@ -43,6 +48,32 @@ void gl_field_destroy(gl_field *d)
         glDeleteBuffers(1, &d->objects);
         glDeleteTextures(1, &d->pixels);
         gl_probes_destroy(&d->probes);
+    }
+    *d = (gl_field){0};
+}
+
+void gl_field_create_reader(const alp_scene *scene, const gl_field *of, gl_field *reader)
+{
+    *reader = *of;
+    make_buffers(scene, reader);
+    reader->changed = true;
+}
+
+void gl_field_follow(gl_field *reader, const gl_field *of)
+{
+    const GLuint vertices = reader->vertices, objects = reader->objects;
+    const bool changed = reader->changed || of->changed;
+    *reader = *of;
+    reader->vertices = vertices;
+    reader->objects = objects;
+    reader->changed = changed;
+}
+
+void gl_field_destroy_reader(gl_field *d)
+{
+    if (d->vertices != 0) {
+        glDeleteBuffers(1, &d->vertices);
+        glDeleteBuffers(1, &d->objects);
     }
     *d = (gl_field){0};
 }

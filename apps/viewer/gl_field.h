@@ -33,6 +33,13 @@ void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_
                      gl_field *drawn);
 void gl_field_destroy(gl_field *drawn);
 
+/// Makes a reader of the same field for another scene, with vertices and surfaces of its own.
+/// @param of what the reader follows: gl_field_follow before each update
+void gl_field_create_reader(const alp_scene *scene, const gl_field *of, gl_field *reader);
+/// Takes over the field, and all of it that is not of vertices and surfaces.
+void gl_field_follow(gl_field *reader, const gl_field *of);
+void gl_field_destroy_reader(gl_field *reader);
+
 /// Sets the field from now on, or tells that it holds other light.
 void gl_field_set(gl_field *drawn, const alp_field *field);
 /// Reads probes in the shader from now on, as their field of ALP_LOOKUP_OURS does, if they can be

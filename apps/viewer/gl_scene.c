@@ -266,6 +266,7 @@ void gl_scene_draw(const gl_scene *d, gl_scene_part part)
 {
     glUniform1ui(UNIFORM_VERTICES, d->vertex_count);
     glUniform1i(UNIFORM_COLORED, d->colored);
+    glUniform1ui(UNIFORM_FIRST_TRIANGLE, d->first_triangle);
     for (uint32_t i = 0; i < d->surface_count; i++) {
         const gl_surface *s = &d->surfaces[i];
         if (part == GL_SCENE_ALL || s->pane == (part == GL_SCENE_PANES)) {

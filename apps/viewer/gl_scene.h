@@ -35,9 +35,10 @@ typedef struct gl_scene {
     GLuint tangents;                  // BUFFER_TANGENTS
     bool normal_maps;                 // are drawn
     uint32_t vertex_count;
-    bool colored;         // vertices have colours
-    bool has_panes;       // light goes through some material
-    gl_surface *surfaces; // [surface_count]
+    uint32_t first_triangle; // its number in pictures of triangles
+    bool colored;            // vertices have colours
+    bool has_panes;          // light goes through some material
+    gl_surface *surfaces;    // [surface_count]
     uint32_t surface_count;
     gl_material *materials; // [material_count + 1]; the last is that of no material
     uint32_t material_count;

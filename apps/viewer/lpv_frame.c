@@ -152,7 +152,7 @@ static void add_flux(const lpv_frame *f, const lpv_frame_scene *in, const alp_li
 static void draw(const pass_maps *maps, const lpv_frame_scene *in, uint32_t light,
                  const camera_view *view)
 {
-    pass_maps_draw(maps, in->drawn, in->lights, light, in->metals_black, view);
+    pass_maps_draw(maps, in->drawn, in->object, in->lights, light, in->metals_black, view);
 }
 
 static void add_sun(lpv_frame *f, const lpv_frame_scene *in, uint32_t light)

@@ -29,6 +29,7 @@ void lpv_frame_destroy(lpv_frame *f);
 typedef struct lpv_frame_scene {
     const alp_scene *scene;
     const gl_scene *drawn;
+    const gl_scene *object; // beside it in all maps, or NULL
     const gl_lights *lights;
     const camera_view *camera; // a view of blockers, or NULL
     double eye[3], forward[3]; // that the grids follow; forward unit, or 0

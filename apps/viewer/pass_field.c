@@ -80,9 +80,12 @@ static void read_points(const pass_field *pass, const gl_field *field, const gl_
 }
 
 void pass_field_draw_opaque(const pass_field *pass, const gl_field *field, const gl_scene *scene,
-                            const camera_view *view, const gl_targets *t)
+                            const gl_scene *object, const camera_view *view, const gl_targets *t)
 {
     pass_surfaces_draw_opaque(&pass->points, scene, NULL, view, t);
+    if (object != NULL) {
+        pass_surfaces_add_object(&pass->points, object, NULL, view, t);
+    }
     read_points(pass, field, t, t->opaque_light, t->opaque_through);
 }
 

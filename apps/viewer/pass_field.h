@@ -19,8 +19,10 @@ int pass_field_create(const gl_targets *targets, pass_field *pass);
 void pass_field_destroy(pass_field *pass);
 /// Fills the texture of a field that is read at pixels, for the nearest opaque surfaces. The
 /// targets are those of pass_surfaces, which draws the same next.
+/// @param object beside the scene, or NULL
 void pass_field_draw_opaque(const pass_field *pass, const gl_field *field, const gl_scene *scene,
-                            const camera_view *view, const gl_targets *targets);
+                            const gl_scene *object, const camera_view *view,
+                            const gl_targets *targets);
 /// The same for a layer of panes. @return whether it shows anything
 bool pass_field_draw_panes(const pass_field *pass, const gl_field *field, const gl_scene *scene,
                            const camera_view *view, const gl_targets *targets, uint32_t layer);

@@ -45,8 +45,15 @@ void pass_maps_destroy(pass_maps *pass)
     *pass = (pass_maps){0};
 }
 
-void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_lights *lights,
-                    uint32_t light, bool metals_black, const camera_view *view)
+static void draw(const gl_scene *scene)
+{
+    gl_scene_bind(scene);
+    gl_scene_draw(scene, GL_SCENE_ALL);
+}
+
+void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_scene *object,
+                    const gl_lights *lights, uint32_t light, bool metals_black,
+                    const camera_view *view)
 {
     static const GLfloat nothing[4], far = 0.0f;
     GLint front = GL_CCW; // another one where the picture is a mirror image
@@ -62,12 +69,14 @@ void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_light
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    gl_scene_bind(scene);
     gl_lights_bind(lights);
     camera_view_bind(view);
     glUniform1ui(UNIFORM_MAP_LIGHT, light);
     glUniform1i(UNIFORM_METALS, metals_black);
     glUniform1i(UNIFORM_PEELED, 0);
-    gl_scene_draw(scene, GL_SCENE_ALL);
+    draw(scene);
+    if (object != NULL) {
+        draw(object);
+    }
     glFrontFace((GLenum)front);
 }

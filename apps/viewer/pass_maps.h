@@ -17,8 +17,10 @@ typedef struct pass_maps {
 int pass_maps_create(uint32_t side, pass_maps *pass);
 void pass_maps_destroy(pass_maps *pass);
 /// Draws a map of the view's size, at most that of pass_maps_create. Texels beyond it are empty.
+/// @param object beside the scene, or NULL
 /// @param light number in `lights` whose flux is reflected; MAP_NO_LIGHT: no flux
-void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_lights *lights,
-                    uint32_t light, bool metals_black, const camera_view *view);
+void pass_maps_draw(const pass_maps *pass, const gl_scene *scene, const gl_scene *object,
+                    const gl_lights *lights, uint32_t light, bool metals_black,
+                    const camera_view *view);
 
 #endif

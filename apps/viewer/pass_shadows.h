@@ -14,6 +14,8 @@ typedef struct pass_shadows {
 int pass_shadows_create(pass_shadows *pass);
 void pass_shadows_destroy(pass_shadows *pass);
 /// Draws the maps of all lights. Needed again only when something has moved.
-void pass_shadows_draw(const pass_shadows *pass, const gl_scene *scene, const gl_lights *lights);
+/// @param object beside the scene, or NULL
+void pass_shadows_draw(const pass_shadows *pass, const gl_scene *scene, const gl_scene *object,
+                       const gl_lights *lights);
 
 #endif

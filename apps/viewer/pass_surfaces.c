@@ -51,7 +51,6 @@ static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_li
 
 static void set_target(const gl_targets *t, GLuint frame)
 {
-    clear(frame);
     gl_targets_bind(t, frame);
     // Row 0 is the upper one, as in images. Depth is 1 at the near plane and 0 far away.
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
@@ -59,19 +58,35 @@ static void set_target(const gl_targets *t, GLuint frame)
     glDepthFunc(GL_GREATER);
 }
 
-void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
-                               const mode_light *light, const camera_view *view,
-                               const gl_targets *t)
+/// Draws a scene into opaque_frame.
+static void draw_opaque(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
+                        const camera_view *view, const gl_targets *t)
 {
-    static const GLuint none[4] = {UINT32_MAX, 0, 0, 0};
     const bool panes = pass_surfaces_has_panes(pass, scene);
     set_target(t, t->opaque_frame);
-    glClearNamedFramebufferuiv(t->opaque_frame, GL_COLOR, 1, none);
     bind(pass, scene, light, view);
     glBindTextureUnit(TEXTURE_DEPTH, scene->white);
     glBindTextureUnit(TEXTURE_OPAQUE_DEPTH, scene->white);
     glUniform1i(UNIFORM_PEELED, 0);
     gl_scene_draw(scene, panes ? GL_SCENE_OPAQUE : GL_SCENE_ALL);
+}
+
+void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
+                               const mode_light *light, const camera_view *view,
+                               const gl_targets *t)
+{
+    static const GLuint none[4] = {UINT32_MAX, 0, 0, 0};
+    clear(t->opaque_frame);
+    glClearNamedFramebufferuiv(t->opaque_frame, GL_COLOR, 1, none);
+    draw_opaque(pass, scene, light, view, t);
+}
+
+void pass_surfaces_add_object(const pass_surfaces *pass, const gl_scene *object,
+                              const mode_light *light, const camera_view *view, const gl_targets *t)
+{
+    glEnable(GL_CULL_FACE);
+    draw_opaque(pass, object, light, view, t);
+    glDisable(GL_CULL_FACE);
 }
 
 bool pass_surfaces_draw_panes(const pass_surfaces *pass, const gl_scene *scene,
@@ -80,6 +95,7 @@ bool pass_surfaces_draw_panes(const pass_surfaces *pass, const gl_scene *scene,
 {
     const bool first = layer == 0;
     GLuint seen = 0;
+    clear(t->layer_frames[layer % 2]);
     set_target(t, t->layer_frames[layer % 2]);
     glColorMaski(1, first, first, first, first); // triangles are those of the first layer
     bind(pass, scene, light, view);

@@ -23,6 +23,10 @@ bool pass_surfaces_has_panes(const pass_surfaces *pass, const gl_scene *scene);
 void pass_surfaces_draw_opaque(const pass_surfaces *pass, const gl_scene *scene,
                                const mode_light *light, const camera_view *view,
                                const gl_targets *targets);
+/// Adds a closed or single-sided object without panes to them: its fronts, as render shows it.
+void pass_surfaces_add_object(const pass_surfaces *pass, const gl_scene *object,
+                              const mode_light *light, const camera_view *view,
+                              const gl_targets *targets);
 /// Draws a layer of panes before the opaque surfaces into layer_frames[layer % 2].
 /// @param layer its number, from 0
 /// @return whether it shows anything

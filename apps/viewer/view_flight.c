@@ -53,6 +53,20 @@ static int move_light(view_job *view, const view_mode *mode, drawing *d, double 
     return code;
 }
 
+/// Brings the object to a moment of the flight.
+static int move_object(const view_job *view, drawing *d, double time)
+{
+    float position[3];
+    if (view->object_path.count == 0 || d->object.what.kind == ALP_OBJECT_NONE) {
+        return EXIT_DONE;
+    }
+    const flight_camera at = flight_at(&view->object_path, time);
+    for (int k = 0; k < 3; k++) {
+        position[k] = (float)at.position[k];
+    }
+    return drawing_move_object(d, view->session.context, position);
+}
+
 static int draw_frame(flight_job *job, uint64_t frame, const char *file)
 {
     view_job *view = job->view;
@@ -64,6 +78,10 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     int moved = move_light(view, view->settings.mode, &view->drawing, time, &camera);
     if (moved == EXIT_DONE && view->beside.mode != NULL) {
         moved = move_light(view, view->beside.mode, &view->beside.drawing, time, &camera);
+    }
+    moved = moved == EXIT_DONE ? move_object(view, &view->drawing, time) : moved;
+    if (moved == EXIT_DONE && view->beside.mode != NULL) {
+        moved = move_object(view, &view->beside.drawing, time);
     }
     if (moved != EXIT_DONE) {
         return moved;

@@ -22,6 +22,7 @@ typedef struct view_job {
     drawing drawing;
     view_beside beside;
     flight path;          // of the camera; empty where the light has the flight
+    flight object_path;   // of --object; empty without one
     alp_image *reference; // NULL without one
     double prepare_seconds;
 } view_job;

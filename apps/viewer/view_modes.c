@@ -106,7 +106,8 @@ static void bind_ambient(const mode_light *light, GLuint program)
 enum {
     LIT = USES_METALS | USES_BACKGROUND | USES_LIGHTS | USES_PANES,
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_TEXELS | USES_SEED,
-    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS | USES_SSAO,
+    FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS | USES_SSAO |
+             USES_OBJECT,
     TRACED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_PATHS
 };
 
@@ -122,7 +123,7 @@ static const view_mode modes[] = {
      .prepare = prepare_lightmap,
      .bind = bind_lightmap},
     {.fragment = &shader_direct_frag,
-     .uses = LIT | USES_DIRECT | USES_NORMALS,
+     .uses = LIT | USES_DIRECT | USES_NORMALS | USES_OBJECT,
      .method = ALP_RENDER_FIELD,
      .prepare = prepare_direct,
      .bind = bind_lights},
@@ -234,6 +235,8 @@ int view_mode_check(const command_line *a)
                    {"--ssao", OPTION_SSAO, USES_SSAO},
                    {"--ssao-radius", OPTION_SSAO_RADIUS, USES_SSAO},
                    {"--read", OPTION_READ, USES_FIELD},
+                   {"--object", OPTION_OBJECT, USES_OBJECT},
+                   {"--object-path", OPTION_OBJECT_PATH, USES_OBJECT},
                    {"--normal-maps", OPTION_NORMAL_MAPS, USES_NORMALS},
                    {"--probes", OPTION_PROBES, USES_PROBES},
                    {"--spacing", OPTION_SPACING, USES_PROBES},

@@ -41,7 +41,8 @@ typedef enum mode_use {
     USES_TEXELS = 2048, // rays of texels
     USES_OCCLUSION = 4096,
     USES_SSAO = 8192,
-    USES_PATHS = 16384, // --samples; paths make the picture, and nothing is drawn
+    USES_OBJECT = 131072, // --object
+    USES_PATHS = 16384,   // --samples; paths make the picture, and nothing is drawn
     // Not options.
     USES_PANES = 32768, // light goes through panes
     USES_DIRECT = 65536 // light comes straight from lamps and suns

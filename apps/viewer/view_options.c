@@ -4,9 +4,12 @@
 #include "cameras.h"
 #include "film.h"
 #include "lighting.h"
+#include "objects.h"
 #include "output.h"
 #include "view_capture.h"
 #include "views.h"
+
+#include <string.h>
 
 /// Kinds of output.
 enum { PICTURE = 1, FLIGHT = 2, CAPTURE = 4 };
@@ -42,6 +45,7 @@ static int check_output(const command_line *a)
     } read_by[] = {{"--frames", OPTION_FRAMES, FLIGHT},
                    {"--time", OPTION_TIME, PICTURE},
                    {"--path", OPTION_PATH, FLIGHT},
+                   {"--object-path", OPTION_OBJECT_PATH, FLIGHT},
                    {"--camera", OPTION_CAMERA, PICTURE},
                    {"--resolution", OPTION_RESOLUTION, PICTURE | FLIGHT},
                    {"--exposure", OPTION_EXPOSURE, PICTURE | FLIGHT},
@@ -103,6 +107,21 @@ static int check_needs(const command_line *a)
     return EXIT_DONE;
 }
 
+/// --object and its path.
+static int check_object(const command_line *a, alp_render_object *object)
+{
+    const option_value *path = &a->values[OPTION_OBJECT_PATH];
+    if (path->given && !a->values[OPTION_OBJECT].given) {
+        return usage_error(COMMAND_VIEW, "--object-path: needs --object");
+    }
+    if (path->given && strcmp(path->text, "-") == 0 && a->values[OPTION_PATH].given &&
+        strcmp(a->values[OPTION_PATH].text, "-") == 0) {
+        return usage_error(COMMAND_VIEW, "--path and --object-path: both are standard input; give "
+                                         "a file for one");
+    }
+    return object_read(a, (const double[3]){0.0, 0.0, 0.0}, object);
+}
+
 static int read_light(const command_line *a, view_settings *s)
 {
     alp_render_options *o = &s->render;
@@ -146,6 +165,7 @@ int view_settings_read(const command_line *a, view_settings *s)
         s->render.width = s->render.height = CAPTURE_SIDE;
         code = capture_read(a, (const double[3]){0.0, 0.0, 0.0}, point);
     }
+    code = code == EXIT_DONE ? check_object(a, &s->render.object) : code;
     s->film = film_read(a, s->mode->method);
     if (code == EXIT_DONE && a->values[OPTION_OUTPUT].given) {
         code = output_check(a->values[OPTION_OUTPUT].text, a->values[OPTION_FORCE].given);

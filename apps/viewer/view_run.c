@@ -4,6 +4,7 @@
 #include "cameras.h"
 #include "interrupt.h"
 #include "lighting.h"
+#include "objects.h"
 #include "output.h"
 #include "picture_texts.h"
 #include "view_capture.h"
@@ -76,6 +77,9 @@ static int prepare_mode(view_job *job, const command_line *a, const view_mode *m
                                .normal_maps = normal_maps,
                                .metals_black = a->values[OPTION_METALS].choice == 1,
                                .ssao_radius = ssao_radius(s, a)};
+    if ((mode->uses & USES_OBJECT) != 0) {
+        options.object = render->object;
+    }
     int code = normal_maps ? session_end(s, alp_scene_load_normal_maps(s->scene)) : EXIT_DONE;
     if (code == EXIT_DONE && mode->prepare != NULL) {
         code = mode->prepare(s, a, render, &options.light);
@@ -118,6 +122,18 @@ static int load_reference(view_job *job)
                : EXIT_DONE;
 }
 
+/// Places the object of --object in the scene that was loaded, and reads its path.
+static int place_object(view_job *job)
+{
+    const command_line *a = job->arguments;
+    const alp_scene_info info = alp_scene_get_info(job->session.scene);
+    const int code = object_read(a, info.origin, &job->settings.render.object);
+    return code == EXIT_DONE && a->values[OPTION_OBJECT_PATH].given
+               ? flight_read_places(a->values[OPTION_OBJECT_PATH].text, info.origin,
+                                    &job->object_path)
+               : code;
+}
+
 static int run_scene(view_job *job)
 {
     const command_line *a = job->arguments;
@@ -125,6 +141,7 @@ static int run_scene(view_job *job)
     alp_image *sky = NULL;
     int code = lighting_open(&job->session, a, &v->render.lighting, &v->lamps, &sky);
     code = code == EXIT_DONE ? camera_find(&job->session, a, &v->render) : code;
+    code = code == EXIT_DONE ? place_object(job) : code;
     code = code == EXIT_DONE ? load_reference(job) : code;
     code = code == EXIT_DONE && a->values[OPTION_PICTURES].given ? view_flight_read(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
@@ -137,6 +154,7 @@ static int run_scene(view_job *job)
     drawing_destroy(&job->beside.drawing);
     drawing_destroy(&job->drawing);
     flight_clear(&job->path);
+    flight_clear(&job->object_path);
     alp_image_destroy(job->reference);
     alp_image_destroy(sky);
     session_close(&job->session);

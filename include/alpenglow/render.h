@@ -143,6 +143,13 @@ ALP_API ALP_NODISCARD alp_result alp_render_find_camera(const alp_scene *scene,
                                                         const alp_render_options *options,
                                                         alp_camera *camera);
 
+/// The object as a scene of its own, for viewers: one surface, white (albedo .8) and single-sided.
+/// @param scene out, which the caller destroys; NULL on failure
+/// @return ALP_OK; INVALID_ARGUMENT (also without a kind or a radius); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_render_object_mesh(alp_context *context,
+                                                        const alp_render_object *object,
+                                                        alp_scene **scene);
+
 /// Renders linear radiance (AO: accessibility) as float RGBA. Alpha is 0 if no surface is visible.
 /// Without a sky, panes of REFERENCE, RADIOSITY and LIGHTMAP in front of nothing have the alpha
 /// that they absorb. With a sky, alpha of these three is 1 everywhere.

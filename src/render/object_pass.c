@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "base/tasks.h"
 #include "fields/probes/probes.h"
-#include "scene/builtin/teapot.h"
+#include "scene/builtin/mesh_builder.h"
 #include "scene/origin.h"
 #include "scene/receivers.h"
 #include "transport/paths/hit.h"
@@ -14,9 +14,8 @@
 #include <string.h>
 
 enum { STREAM_OBJECT = 31, POINTS_AT_A_TIME = 1 << 16 };
-enum { SPHERE_SLICES = 96, SPHERE_STACKS = 48, PROBE_SLICES = 16, PROBE_STACKS = 8 };
+enum { PROBE_SLICES = 16, PROBE_STACKS = 8 };
 enum { PROBE_TRIANGLES = 2 * PROBE_SLICES * (PROBE_STACKS - 1), SHOWN_PROBES = 20000 };
-static const float OBJECT_ALBEDO = 0.8f;
 static const float PROBE_SIZE = 0.08f; // radius, in cells
 
 /// A point of an object that a camera ray meets.
@@ -39,29 +38,6 @@ typedef struct object_job {
 } object_job;
 
 // --- shapes --------------------------------------------------------------------------------------
-
-static alp_result build_object(object_job *job)
-{
-    const alp_render_object *o = &job->pass->options->object;
-    const vec3 center = vec3_load(o->position);
-    const vec3 white = {OBJECT_ALBEDO, OBJECT_ALBEDO, OBJECT_ALBEDO}, black = {0.0f, 0.0f, 0.0f};
-    alpi_builder builder;
-    alpi_builder_start(&builder, job->pass->scene->context, "object");
-    alpi_builder_surface(&builder, "object",
-                         alpi_builder_material(&builder, "white", white, black));
-    if (o->kind == ALP_OBJECT_SPHERE) {
-        alpi_builder_ball(&builder, &(alpi_ball){.center = center,
-                                                 .radius = o->radius,
-                                                 .top = o->radius,
-                                                 .slices = SPHERE_SLICES,
-                                                 .stacks = SPHERE_STACKS});
-    } else {
-        const vec3 foot = {center.x, center.y - o->radius, center.z};
-        alpi_builder_teapot(
-            &builder, &(alpi_teapot){.foot = foot, .height = 2.0f * o->radius, .segments = 12});
-    }
-    return alpi_builder_finish(&builder, &job->object);
-}
 
 /// Square distance of a probe from the camera.
 static float distance_of(const object_job *job, uint32_t probe, vec3 *place)
@@ -206,7 +182,8 @@ static alp_result light_points(object_job *job)
 /// Adds the points that were collected to the layer.
 static alp_result add_points(object_job *job)
 {
-    const float share = (job->pass->probes != NULL ? 1.0f : OBJECT_ALBEDO) * (float)(1.0 / ALPI_PI);
+    const float share =
+        (job->pass->probes != NULL ? 1.0f : ALPI_OBJECT_ALBEDO) * (float)(1.0 / ALPI_PI);
     ALP_TRY(light_points(job));
     for (uint32_t i = 0; i < job->count; i++) {
         float *pixel = (float *)job->layer->pixels + 4 * (size_t)job->points[i].pixel;
@@ -294,7 +271,8 @@ static alp_result draw(object_job *job, alp_image *image)
     alp_context *context = job->pass->scene->context;
     const alp_render_options *o = job->pass->options;
     const alp_image_info info = {o->width, o->height, 4, ALP_COMPONENT_FLOAT};
-    ALP_TRY(job->pass->probes != NULL ? build_probes(job) : build_object(job));
+    ALP_TRY(job->pass->probes != NULL ? build_probes(job)
+                                      : alp_render_object_mesh(context, &o->object, &job->object));
     if (job->object->usable_count == 0) {
         return ALP_OK;
     }

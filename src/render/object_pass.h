@@ -9,6 +9,8 @@
 
 #include <alpenglow/render.h>
 
+#define ALPI_OBJECT_ALBEDO 0.8f
+
 /// A picture, and the light of its objects: one of the last three.
 typedef struct alpi_object_pass {
     const alp_scene *scene;

@@ -9,24 +9,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COLUMNS = 8, NEEDED = 7, POINT_LIMIT = 1 << 20 };
+enum { COLUMNS = 8, NEEDED = 7, PLACE_COLUMNS = 4, POINT_LIMIT = 1 << 20 };
 
 static const double DEFAULT_VFOV = 60.0; // degrees
 
-static const char *fault_of(const number_line *line)
+static const char *fault_of_numbers(const number_line *line)
+{
+    for (int k = 0; k < line->count; k++) {
+        if (!isfinite(line->numbers[k]) || fabs(line->numbers[k]) > (k == 0 ? 1e9 : 1e15)) {
+            return k == 0 ? "the time is not finite, or beyond 1e9 s; give seconds"
+                          : "a number is not finite, or beyond 1e15; give metres";
+        }
+    }
+    return NULL;
+}
+
+static bool has_rest(const number_line *line)
+{
+    return line->rest[strspn(line->rest, ",; \t\r\n")] != '\0';
+}
+
+static const char *fault_of_view(const number_line *line)
 {
     const double *n = line->numbers;
     if (line->count < NEEDED) {
         return "need seven numbers: t,px,py,pz,tx,ty,tz, and vfov if wanted";
     }
-    if (line->rest[strspn(line->rest, ",; \t\r\n")] != '\0') {
+    if (has_rest(line)) {
         return "something follows the numbers; give t,px,py,pz,tx,ty,tz, and vfov if wanted";
     }
-    for (int k = 0; k < line->count; k++) {
-        if (!isfinite(n[k]) || fabs(n[k]) > (k == 0 ? 1e9 : 1e15)) {
-            return k == 0 ? "the time is not finite, or beyond 1e9 s; give seconds"
-                          : "a number is not finite, or beyond 1e15; give metres";
-        }
+    const char *fault = fault_of_numbers(line);
+    if (fault != NULL) {
+        return fault;
     }
     if (!(flight_distance(n + 1, n + 4) > 0.0)) {
         return "the target is the position; give another point to look at";
@@ -35,6 +49,14 @@ static const char *fault_of(const number_line *line)
         return "vfov is out of range; give 0.001 to 179 degrees";
     }
     return NULL;
+}
+
+static const char *fault_of_place(const number_line *line)
+{
+    if (line->count < PLACE_COLUMNS || has_rest(line)) {
+        return "need four numbers: t,px,py,pz";
+    }
+    return fault_of_numbers(line);
 }
 
 /// @param n    t,px,py,pz,tx,ty,tz
@@ -52,6 +74,7 @@ static flight_point make_point(const double n[NEEDED], double vfov, const double
 typedef struct reading {
     flight *flight;
     double origin[3];
+    bool places; // lines have no target
     uint32_t room;
 } reading;
 
@@ -60,7 +83,7 @@ static const char *keep(void *user, const number_line *line)
 {
     reading *r = user;
     flight *f = r->flight;
-    const char *fault = fault_of(line);
+    const char *fault = r->places ? fault_of_place(line) : fault_of_view(line);
     if (fault != NULL) {
         return fault;
     }
@@ -85,6 +108,14 @@ int flight_read(const char *path, const double origin[3], flight *f)
     *f = (flight){0};
     return number_lines_read(path, COLUMNS,
                              "holds no flight; give lines of t,px,py,pz,tx,ty,tz[,vfov]", keep, &r);
+}
+
+int flight_read_places(const char *path, const double origin[3], flight *f)
+{
+    reading r = {.flight = f, .origin = {origin[0], origin[1], origin[2]}, .places = true};
+    *f = (flight){0};
+    return number_lines_read(path, PLACE_COLUMNS, "holds no path; give lines of t,px,py,pz", keep,
+                             &r);
 }
 
 void flight_terrain(flight *f)

@@ -31,6 +31,9 @@ typedef struct flight_camera {
 /// @param origin of the scene in the world of its file: subtracted
 /// @return EXIT_DONE, or EXIT_FAILED after a message that names file and line
 int flight_read(const char *path, const double origin[3], flight *flight);
+/// Reads lines of t,px,py,pz in the same way: the path of something that looks nowhere. The targets
+/// of its points hold nothing.
+int flight_read_places(const char *path, const double origin[3], flight *flight);
 /// The flight through builtin:terrain.
 void flight_terrain(flight *flight);
 void flight_clear(flight *flight);

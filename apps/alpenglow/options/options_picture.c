@@ -99,6 +99,24 @@ static const option rows[] = {
      .help =
          "A white object at X,Y,Z, lit by the method: reference, probes, ambience or a model of "
          "ambient light. It casts no shadow."},
+    {.id = OPTION_OBJECT,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--object",
+     .value = "sphere|teapot,X,Y,Z,RADIUS",
+     .help =
+         "A white object at X,Y,Z, lit by the mode: direct, probes, ambience, lpv or a model of "
+         "ambient light. It casts shadows of lamps and suns, and is in the maps that light the "
+         "volume of lpv (--read pixel). Other light is as without it."},
+    {.id = OPTION_OBJECT_PATH,
+     .commands = IN_VIEW,
+     .group = GROUP_PICTURE,
+     .kind = KIND_TEXT,
+     .name = "--object-path",
+     .value = "FLIGHT.csv",
+     .help = "Lines of t,px,py,pz that move the centre of --object in the pictures of a flight: "
+             "seconds of the flight and metres, straight from line to line. - is standard input."},
     {.id = OPTION_OVERLAY,
      .commands = IN_RENDER,
      .group = GROUP_PICTURE,

@@ -67,7 +67,8 @@
 #define UNIFORM_SURFACE 20    // uint, of the scene
 #define UNIFORM_FIELD_READ 21 // int, READ_...
 #define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
-#define UNIFORM_SSAO 48       // bool, whether TEXTURE_SSAO counts
+#define UNIFORM_FIRST_TRIANGLE 23 // uint, number of triangle 0 in pictures of triangles
+#define UNIFORM_SSAO 48           // bool, whether TEXTURE_SSAO counts
 // Of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu

@@ -9,6 +9,7 @@ layout(binding = TEXTURE_TRANSMISSION) uniform sampler2D transmission_texture;
 layout(binding = TEXTURE_NORMAL) uniform sampler2D normal_texture;
 
 layout(location = UNIFORM_METALS) uniform bool metals_black;
+layout(location = UNIFORM_FIRST_TRIANGLE) uniform uint first_triangle;
 
 in vec3 vertex_normal;
 in vec4 vertex_tangent; // w: sign of the bitangent
@@ -105,7 +106,7 @@ surface read_surface(bool panes)
         add_pane(covered, color.rgb, s);
     }
     s.dark = !gl_FrontFacing && (m.flags & 1u) == 0u;
-    picture_triangle = triangle_index;
+    picture_triangle = first_triangle + triangle_index;
     picture_through = vec4(s.through, 1.0);
     return s;
 }

@@ -61,3 +61,13 @@ try $view --with lightmap --ssao on
 try $view --with hemisphere --ssao-radius 1
 try $view --with hemisphere --ssao on --ssao-radius 0
 try view scene.glb --with hemisphere --ssao on --capture 1,2,3
+for mode in none albedo lightmap ao sh blend; do
+    try $view --with $mode --object sphere,0,0,0,1
+done
+for object in "" cube,0,0,0,1 sphere sphere,0,0,0 sphere,0,0,0,0 teapot,0,0,0,1,2; do
+    try $view --with direct --object "$object"
+done
+try $view --with direct --object sphere,0,0,0,1 --object-path path.csv
+try $flight --with direct --object-path path.csv
+try $flight --with lightmap --object-path path.csv
+try view scene.glb --path - --pictures frames --with direct --object sphere,0,0,0,1 --object-path -

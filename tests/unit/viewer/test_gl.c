@@ -67,6 +67,35 @@ static void trace_triangles(const alp_scene *scene, const alp_render_options *o,
     }
 }
 
+/// The same of the scene with the object, whose triangles follow those of the scene.
+static void trace_object(const alp_scene *scene, const alp_render_options *o,
+                         const alp_camera *camera, uint32_t *triangles)
+{
+    alp_scene *object = NULL;
+    alpi_tracer *tracers[2] = {NULL, NULL};
+    alpi_view view;
+    alpi_rays rays;
+    ASSERT_OK(scene->context, alp_render_object_mesh(scene->context, &o->object, &object));
+    ASSERT_OK(scene->context, alpi_tracer_for_scene(scene, NULL, NULL, &tracers[0], NULL));
+    ASSERT_OK(scene->context, alpi_tracer_for_scene(object, NULL, NULL, &tracers[1], NULL));
+    ASSERT_OK(scene->context, alpi_view_place(scene->context, camera, o->width, o->height, &view));
+    view.centred = true;
+    alpi_rays_clear(&rays);
+    for (uint32_t i = 0; i < o->width * o->height; i++) {
+        alpi_hits hits, own;
+        view.loops->packet(&view, i, 0, 0, &rays);
+        alpi_trace_nearest_coherent(tracers[0], &rays, 1u, (alpi_trace_filter){.panes = true},
+                                    &hits);
+        alpi_trace_nearest_coherent(tracers[1], &rays, 1u, (alpi_trace_filter){.one_sided = true},
+                                    &own);
+        const bool hidden = triangles[i] != ALPI_NONE && hits.distance[0] < own.distance[0];
+        if (own.triangle[0] != ALPI_NONE && !hidden) {
+            triangles[i] = scene->triangle_count + own.triangle[0];
+        }
+    }
+    alp_scene_destroy(object);
+}
+
 /// Whether the pixels around one, itself included, see the same by both.
 static bool is_alike(const uint32_t *a, const uint32_t *b, uint32_t x, uint32_t y,
                      const alp_render_options *o)
@@ -89,11 +118,17 @@ static void compare_triangles(const alp_scene *scene, const alp_render_options *
     uint32_t *traced = malloc(count * sizeof *traced), alike = 0;
     pair->alike = malloc(count * sizeof *pair->alike);
     assert_non_null(traced);
+    pair->on_object = malloc(count * sizeof *pair->on_object);
     assert_non_null(pair->alike);
+    assert_non_null(pair->on_object);
     trace_triangles(scene, o, camera, traced);
+    if (o->object.kind != ALP_OBJECT_NONE) {
+        trace_object(scene, o, camera, traced);
+    }
     for (uint32_t i = 0; i < count; i++) {
         pair->alike[i] = is_alike(drawn, traced, i % o->width, i / o->width, o);
         alike += pair->alike[i] ? 1 : 0;
+        pair->on_object[i] = drawn[i] != ALPI_NONE && drawn[i] >= scene->triangle_count;
     }
     pair->alike_share = (double)alike / (double)count;
     free(traced);
@@ -178,6 +213,7 @@ static void draw(const alp_scene *scene, const alp_render_options *o, const alp_
                                      .lighting = &o->lighting,
                                      .width = o->width,
                                      .height = o->height,
+                                     .object = o->object,
                                      .direct = !o->without_direct,
                                      .metals_black = scene->metals_black,
                                      .level_zero = true};
@@ -237,6 +273,7 @@ void test_pair_destroy(test_pair *pair)
     alp_image_destroy(pair->drawn_light);
     alp_image_destroy(pair->rendered_light);
     free(pair->alike);
+    free(pair->on_object);
     *pair = (test_pair){0};
 }
 

@@ -24,6 +24,7 @@ typedef struct test_pair {
     /// same lights reach these pixels by rays, so that no edge of a shadow is near.
     bool *alike;
     double alike_share;
+    bool *on_object; // [height][width] the viewer sees the object of the options
 } test_pair;
 
 /// Draws and renders.
