@@ -10,7 +10,8 @@ enum { SLICES = 96, STACKS = 48, TEAPOT_SEGMENTS = 12 };
 
 static bool is_sound(const alp_render_object *o)
 {
-    return o->kind != ALP_OBJECT_NONE && o->radius > 0.0f && isfinite(o->radius) &&
+    const bool known = o->kind == ALP_OBJECT_SPHERE || o->kind == ALP_OBJECT_TEAPOT;
+    return known && o->radius > 0.0f && isfinite(o->radius) &&
            vec3_is_finite(vec3_load(o->position));
 }
 
