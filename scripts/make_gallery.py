@@ -88,6 +88,8 @@ PICTURES = {  # name: how it is made, and whether it is quick
     "plates": (script("make_plates.py"), True),
     "blend-borders": (script("make_borders.py"), True),
     "windows": (script("make_windows.py", "192"), False),
+    **{f"view-{scene}": (script("make_views.py", scene), False)
+       for scene in ("cornell", "teapot-room", "terrain", "zdm2")},
 }
 
 
