@@ -4,7 +4,8 @@
 #
 #   scripts/make_docs.sh [-c COMMAND] [-t TESTS] [PAGE ...]
 #
-# PAGE is accuracy, speed, atlas, peers, sh, fields, ambience or lpv; without it all eight. COMMAND is a release build of
+# PAGE is accuracy, speed, atlas, peers, sh, fields, ambience or lpv; without it all eight. The page views makes
+# the sheets of the viewer in docs/gallery.md. COMMAND is a release build of
 # alpenglow (default build/release/apps/alpenglow/alpenglow). TESTS is the folder of the test
 # programs (default build/dev/tests), whose lines "accuracy: …" are collected. Texts above the tables
 # are in scripts/captions.md. Run it on an idle machine, with ALPENGLOW_SHARED set to the folder of
@@ -131,6 +132,10 @@ write_page() {
 for page in "${@:-accuracy speed atlas peers sh fields ambience lpv}"; do
     for one in $page; do
         case $one in
+            views)
+                scripts/make_gallery.py "$command" docs/pictures \
+                    view-cornell view-teapot-room view-terrain view-zdm2
+                ;;
             accuracy | speed | atlas | peers | sh | fields | ambience | lpv) write_page "$one" ;;
             *) echo "make_docs: no page $one" >&2 && exit 2 ;;
         esac

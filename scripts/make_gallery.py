@@ -75,6 +75,15 @@ def propagation(command, out):
          ["reference", "--samples", "1024"]])
 
 
+def viewer(_, out):
+    """Four pictures of the viewer's sheet of the teapot room, in a row."""
+    sheet = read_png(os.path.join(os.path.dirname(out), "view-teapot-room.png"))
+    width, height = 240, 135
+    cells = [[row[3 * width * x:3 * width * (x + 1)] for row in sheet[height * y:height * (y + 1)]]
+             for y, x in ((4, 1), (2, 0), (0, 0), (0, 3))]
+    write_png(out, [b"".join(rows) for rows in zip(*cells)])
+
+
 def script(name, *arguments):
     return lambda command, out: subprocess.run(
         [sys.executable, os.path.join(HERE, name), command, out, *arguments], check=True)
@@ -88,6 +97,9 @@ PICTURES = {  # name: how it is made, and whether it is quick
     "plates": (script("make_plates.py"), True),
     "blend-borders": (script("make_borders.py"), True),
     "windows": (script("make_windows.py", "192"), False),
+    **{f"view-{scene}": (script("make_views.py", scene), False)
+       for scene in ("cornell", "teapot-room", "terrain", "zdm2")},
+    "viewer": (viewer, True),
 }
 
 
