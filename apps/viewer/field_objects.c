@@ -57,7 +57,8 @@ static uint32_t find_end(const alp_scene *scene, uint32_t first, uint32_t count)
 static void find_middle(const alp_scene *scene, const alp_geometry *g, uint32_t first, uint32_t end,
                         float middle[3])
 {
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    const double most = (double)INFINITY;
+    double low[3] = {most, most, most}, high[3] = {-most, -most, -most};
     for (uint32_t i = first; i < end; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
         for (uint32_t c = 0; c < 3 * s.triangle_count; c++) {
