@@ -144,8 +144,8 @@ TEST_WITH_CONTEXT(a_textured_material_is_shaded_as_the_library_does, 1)
 {
     static const char *const textures[] = {
         "'index':0", "'index':2,'texCoord':1",
-        "'index':0,'extensions':{'KHR_texture_transform':{'offset':[-0.7,0.4],'scale':[2.5,-3],"
-        "'rotation':0.6,'texCoord':1}}"};
+        ("'index':0,'extensions':{'KHR_texture_transform':{'offset':[-0.7,0.4],'scale':[2.5,-3],"
+         "'rotation':0.6,'texCoord':1}}")};
     for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
         char material[1024];
         snprintf(material, sizeof material,
