@@ -2,12 +2,14 @@
 #include "gl_lpv.h"
 
 #include "gl_program.h"
+#include "messages.h"
 #include "options/options.h"
 #include "shader_list.h"
 
 #include <alpenglow/shared_constants.h>
 
 #include <math.h>
+#include <stdio.h>
 
 enum { TERMS = 12, CASCADE_STEPS = 8 };
 
@@ -35,9 +37,10 @@ static GLuint create_buffer(const uint32_t size[3], uint32_t terms)
 static int create_programs(gl_lpv *v)
 {
     static const gl_shader *const shaders[GL_LPV_PASSES] = {
-        [GL_LPV_LIGHT] = &shader_lpv_light_comp, [GL_LPV_BLOCKERS] = &shader_lpv_blockers_comp,
-        [GL_LPV_MERGE] = &shader_lpv_merge_comp, [GL_LPV_FACES] = &shader_lpv_faces_comp,
-        [GL_LPV_START] = &shader_lpv_start_comp, [GL_LPV_STEP] = &shader_lpv_step_comp};
+        [GL_LPV_LIGHT] = &shader_lpv_light_comp,       [GL_LPV_GATHER] = &shader_lpv_gather_comp,
+        [GL_LPV_BLOCKERS] = &shader_lpv_blockers_comp, [GL_LPV_MERGE] = &shader_lpv_merge_comp,
+        [GL_LPV_FACES] = &shader_lpv_faces_comp,       [GL_LPV_START] = &shader_lpv_start_comp,
+        [GL_LPV_STEP] = &shader_lpv_step_comp};
     for (int i = 0; i < GL_LPV_PASSES; i++) {
         v->programs[i] = gl_program_create_compute(shaders[i]);
         if (v->programs[i] == 0) {
@@ -47,12 +50,40 @@ static int create_programs(gl_lpv *v)
     return EXIT_DONE;
 }
 
+/// Whether the card holds textures and buffers of this size. @return EXIT_DONE, or EXIT_FAILED
+/// after a message
+static int check_size(const alp_lpv_options *o)
+{
+    GLint side = 0, bytes = 0;
+    uint64_t nodes = o->cascades;
+    bool fits = true;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &side);
+    glGetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    for (int k = 0; k < 3; k++) {
+        const uint64_t times = k == 2 ? 3 * (uint64_t)o->cascades : 1;
+        nodes *= o->size[k] + 1;
+        fits = fits && (o->size[k] + 1) * times <= (uint64_t)side;
+    }
+    if (!fits || nodes * TERMS * sizeof(GLint) > (uint64_t)bytes) {
+        char text[192];
+        snprintf(text, sizeof text,
+                 "the graphics card takes no volume of %u x %u x %u cells and %u cascades; give "
+                 "fewer (--grid, --cascades), or --read vertex",
+                 o->size[0], o->size[1], o->size[2], o->cascades);
+        return failure(text);
+    }
+    return EXIT_DONE;
+}
+
 int gl_lpv_create(const alp_lpv_options *o, gl_lpv *v)
 {
     const uint32_t cells[3] = {o->size[0], o->size[1], o->size[2] * o->cascades};
     const uint32_t nodes[3] = {o->size[0] + 1, o->size[1] + 1, (o->size[2] + 1) * o->cascades};
     *v = (gl_lpv){.options = *o};
-    v->injected = create_buffer(cells, TERMS);
+    if (check_size(o) != EXIT_DONE) {
+        return EXIT_FAILED;
+    }
+    v->counts = create_buffer(cells, TERMS);
     v->view = create_buffer(nodes, LPV_NODE_TERMS);
     v->opacities = create_texture(nodes, 1);
     v->albedos = create_texture(nodes, 1);
@@ -60,18 +91,19 @@ int gl_lpv_create(const alp_lpv_options *o, gl_lpv *v)
     v->colors = create_texture(nodes, 3);
     v->light[0] = create_texture(cells, 3);
     v->light[1] = create_texture(cells, 3);
+    v->injected = create_texture(cells, 3);
     v->sum = create_texture(cells, 3);
     return create_programs(v);
 }
 
 void gl_lpv_destroy(gl_lpv *v)
 {
-    if (v->injected == 0) {
+    if (v->counts == 0) {
         return;
     }
-    const GLuint textures[] = {v->opacities, v->albedos,  v->faces, v->colors,
-                               v->light[0],  v->light[1], v->sum};
-    glDeleteBuffers(1, &v->injected);
+    const GLuint textures[] = {v->opacities, v->albedos,  v->faces,    v->colors,
+                               v->light[0],  v->light[1], v->injected, v->sum};
+    glDeleteBuffers(1, &v->counts);
     glDeleteBuffers(1, &v->view);
     glDeleteTextures(sizeof textures / sizeof *textures, textures);
     for (int i = 0; i < GL_LPV_PASSES; i++) {
@@ -116,15 +148,27 @@ static void use(const gl_lpv *v, int pass)
     set_grid(v);
 }
 
-/// Runs the current program for each of size[0] × size[1] × size[2] × cascades elements.
-static void run(const gl_lpv *v, uint32_t more)
+static void dispatch(uint32_t wide, uint32_t high, uint32_t deep)
 {
-    const uint32_t *size = v->options.size, deep = (size[2] + more) * v->options.cascades;
-    glDispatchCompute((size[0] + more + LPV_GROUP_X - 1) / LPV_GROUP_X,
-                      (size[1] + more + LPV_GROUP_Y - 1) / LPV_GROUP_Y,
+    glDispatchCompute((wide + LPV_GROUP_X - 1) / LPV_GROUP_X,
+                      (high + LPV_GROUP_Y - 1) / LPV_GROUP_Y,
                       (deep + LPV_GROUP_Z - 1) / LPV_GROUP_Z);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+/// Runs the current program for each of size[0] × size[1] × size[2] × cascades elements.
+static void run(const gl_lpv *v, uint32_t more)
+{
+    const uint32_t *size = v->options.size;
+    dispatch(size[0] + more, size[1] + more, (size[2] + more) * v->options.cascades);
+}
+
+/// The same for all channels.
+static void run_all(const gl_lpv *v)
+{
+    const uint32_t *size = v->options.size, deep = 3 * size[2] * v->options.cascades;
+    dispatch(size[0], size[1], deep);
 }
 
 static void bind_image(GLuint unit, GLuint texture, GLenum access)
@@ -146,15 +190,13 @@ void gl_lpv_follow(gl_lpv *v, const double eye[3], const double forward[3])
     }
 }
 
-void gl_lpv_begin(gl_lpv *v, const float flux[3])
+void gl_lpv_begin(const gl_lpv *v)
 {
-    const GLint zero = 0;
-    glClearNamedBufferData(v->injected, GL_R32I, GL_RED_INTEGER, GL_INT, &zero);
+    // Clearing is an update, which must wait for what shaders have stored in the frame before.
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glClearTexImage(v->injected, 0, GL_RGBA, GL_FLOAT, NULL);
     glClearTexImage(v->opacities, 0, GL_RGBA, GL_FLOAT, NULL);
     glClearTexImage(v->albedos, 0, GL_RGBA, GL_FLOAT, NULL);
-    for (int k = 0; k < 3; k++) { // a term is at most flux / 2π
-        v->units[k] = fmaxf(flux[k], 1e-30f) / 6.2831853f / 0x1p30f;
-    }
 }
 
 static void use_map(const gl_lpv *v, int pass, const gl_lpv_map *map)
@@ -173,13 +215,28 @@ static void run_map(const gl_lpv_map *map)
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void gl_lpv_add_light(const gl_lpv *v, const gl_lpv_map *map)
+/// Adds what was counted to the light of the maps before.
+static void gather(const gl_lpv *v, const float units[3])
 {
+    use(v, GL_LPV_GATHER);
+    glUniform3fv(UNIFORM_LPV_UNITS, 1, units);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_COUNTS, v->counts);
+    bind_image(0, v->injected, GL_READ_WRITE);
+    run(v, 0);
+}
+
+void gl_lpv_add_light(const gl_lpv *v, const gl_lpv_map *map, const float flux[3])
+{
+    float units[3];
+    for (int k = 0; k < 3; k++) { // a term is at most flux / 2π
+        units[k] = fmaxf(flux[k], 1e-30f) / 6.2831853f / 0x1p30f;
+    }
     use_map(v, GL_LPV_LIGHT, map);
-    glUniform3fv(UNIFORM_LPV_UNITS, 1, v->units);
+    glUniform3fv(UNIFORM_LPV_UNITS, 1, units);
     glBindTextureUnit(2, map->flux);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_INJECTED, v->injected);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_COUNTS, v->counts);
     run_map(map);
+    gather(v, units);
 }
 
 void gl_lpv_add_blockers(const gl_lpv *v, const gl_lpv_map *map, bool only)
@@ -221,11 +278,10 @@ void gl_lpv_propagate(gl_lpv *v)
         run(v, 1);
     }
     use(v, GL_LPV_START);
-    glUniform3fv(UNIFORM_LPV_UNITS, 1, v->units);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_LPV_INJECTED, v->injected);
+    glBindTextureUnit(0, v->injected);
     bind_image(0, v->light[0], GL_WRITE_ONLY);
     bind_image(1, v->sum, GL_WRITE_ONLY);
-    run(v, 0);
+    run_all(v);
     use(v, GL_LPV_STEP);
     glBindTextureUnit(1, v->faces);
     glBindTextureUnit(2, v->colors);

@@ -11,6 +11,7 @@
 
 enum {
     GL_LPV_LIGHT,
+    GL_LPV_GATHER,
     GL_LPV_BLOCKERS,
     GL_LPV_MERGE,
     GL_LPV_FACES,
@@ -23,8 +24,8 @@ enum {
 /// other along z, first those of red, or of faces across x.
 typedef struct gl_lpv {
     alp_lpv_options options;
-    GLuint injected;           // buffer: int [cascade][z][y][x][channel][term], in units
-    float units[3];            // of the channels, W/sr
+    GLuint counts;             // buffer: int [cascade][z][y][x][channel][term], of one map's light
+    GLuint injected;           // as `sum`: the light of all maps
     GLuint opacities, albedos; // of nodes, without channels: B(w) = p.x + p.yzw . w; albedo × p.x
     GLuint faces, colors;      // low faces: opacity, albedo
     GLuint light[2], sum;      // I(w) = p.x + p.yzw . w; light[0] travels next
@@ -33,7 +34,7 @@ typedef struct gl_lpv {
     float corners[LPV_CASCADES_MOST][3], centres[LPV_CASCADES_MOST][3]; // cells; metres
 } gl_lpv;
 
-/// An empty volume.
+/// An empty volume. Its layers along z, three for each of a cascade's, must fit a texture.
 /// @param options as alp_lpv_create takes them; `iterations` is 0 or a number
 /// @return EXIT_DONE, or EXIT_FAILED after a message; gl_lpv_destroy in both cases
 int gl_lpv_create(const alp_lpv_options *options, gl_lpv *volume);
@@ -51,9 +52,10 @@ typedef struct gl_lpv_map {
     int cascade; // whose map it is, −1: of all
 } gl_lpv_map;
 /// Takes all light and blockers out.
-/// @param flux the most that will be injected, W by channel
-void gl_lpv_begin(gl_lpv *volume, const float flux[3]);
-void gl_lpv_add_light(const gl_lpv *volume, const gl_lpv_map *map);
+void gl_lpv_begin(const gl_lpv *volume);
+/// Injects the light of a map.
+/// @param flux the most that the map may hold, W by channel: light is counted in 2^-30 of it
+void gl_lpv_add_light(const gl_lpv *volume, const gl_lpv_map *map, const float flux[3]);
 /// Adds a map to the view that is being made.
 /// @param only to the grid of the map alone; else to coarser ones too
 void gl_lpv_add_blockers(const gl_lpv *volume, const gl_lpv_map *map, bool only);

@@ -9,24 +9,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAMERA_SIDE = 256, SURFEL_WIDTH = 256 };
+enum { CAMERA_SIDE = 256, EMITTERS_MOST = 1 << 22 };
 /// Radians: spot lights with wider cones have six faces.
 static const float WIDEST_SPOT = 1.2f;
 
 // --- surfels that stay ---------------------------------------------------------------------------
 
-static GLuint upload(const float (*values)[3], const float *fourth, uint32_t count, uint32_t height)
+/// A square texture of surfels.
+static GLuint upload(const float (*values)[3], const float *fourth, uint32_t count, uint32_t side)
 {
-    float(*texels)[4] = allocate_or_exit(NULL, (size_t)SURFEL_WIDTH * height * sizeof *texels);
+    float(*texels)[4] = allocate_or_exit(NULL, (size_t)side * side * sizeof *texels);
     GLuint texture = 0;
-    memset(texels, 0, (size_t)SURFEL_WIDTH * height * sizeof *texels);
+    memset(texels, 0, (size_t)side * side * sizeof *texels);
     for (uint32_t i = 0; i < count; i++) {
         memcpy(texels[i], values[i], sizeof values[i]);
         texels[i][3] = fourth != NULL ? fourth[i] : 0.0f;
     }
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-    glTextureStorage2D(texture, 1, GL_RGBA32F, SURFEL_WIDTH, (GLsizei)height);
-    glTextureSubImage2D(texture, 0, 0, 0, SURFEL_WIDTH, (GLsizei)height, GL_RGBA, GL_FLOAT, texels);
+    glTextureStorage2D(texture, 1, GL_RGBA32F, (GLsizei)side, (GLsizei)side);
+    glTextureSubImage2D(texture, 0, 0, 0, (GLsizei)side, (GLsizei)side, GL_RGBA, GL_FLOAT, texels);
     free(texels);
     return texture;
 }
@@ -40,14 +41,14 @@ static alp_result collect(const alp_scene *scene, alp_lpv_source source, uint32_
         return result;
     }
     const alp_lpv_surfels s = alp_lpv_collection_surfels(collection);
-    const uint32_t height = (s.count + SURFEL_WIDTH - 1) / SURFEL_WIDTH;
+    const uint32_t side = (uint32_t)ceil(sqrt((double)s.count));
     if (s.count > 0) {
-        *map = (gl_lpv_map){.positions = upload(s.positions, s.radii, s.count, height),
-                            .normals = upload(s.normals, s.areas, s.count, height),
-                            .flux = upload(s.flux, NULL, s.count, height),
-                            .albedos = upload(s.albedo, NULL, s.count, height),
-                            .width = SURFEL_WIDTH,
-                            .height = height,
+        *map = (gl_lpv_map){.positions = upload(s.positions, s.radii, s.count, side),
+                            .normals = upload(s.normals, s.areas, s.count, side),
+                            .flux = upload(s.flux, NULL, s.count, side),
+                            .albedos = upload(s.albedo, NULL, s.count, side),
+                            .width = side,
+                            .height = side,
                             .cascade = -1};
     }
     for (uint32_t i = 0; i < s.count; i++) {
@@ -57,6 +58,17 @@ static alp_result collect(const alp_scene *scene, alp_lpv_source source, uint32_
     }
     alp_lpv_collection_destroy(collection);
     return ALP_OK;
+}
+
+static bool emits(const alp_scene *scene)
+{
+    const uint32_t count = alp_scene_get_info(scene).surfaces;
+    bool found = false;
+    for (uint32_t i = 0; i < count && !found; i++) {
+        const float *e = alp_scene_get_surface(scene, i).emission;
+        found = e[0] + e[1] + e[2] > 0.0f;
+    }
+    return found;
 }
 
 static void destroy_map(gl_lpv_map *m)
@@ -84,8 +96,11 @@ alp_result lpv_frame_create(const alp_scene *scene, const alp_lpv_options *optio
         return ALP_OK;
     }
     f->side = side;
-    const alp_result result =
-        collect(scene, ALP_LPV_EMITTERS, 2 * side * side, frame->seed, &f->emitters, f->emitted);
+    alp_result result = ALP_OK;
+    if (emits(scene)) {
+        const uint32_t count = side < 1448 ? 2 * side * side : EMITTERS_MOST;
+        result = collect(scene, ALP_LPV_EMITTERS, count, frame->seed, &f->emitters, f->emitted);
+    }
     const bool points = result == ALP_OK && options->blockers && !f->views;
     return points ? collect(scene, ALP_LPV_POINTS, frame->points, frame->seed, &f->points, none)
                   : result;
@@ -127,26 +142,23 @@ static camera_view view_of_sun(const lpv_frame *f, const lpv_frame_scene *in, ui
     return light_view_of_box(&info, sun->direction, low, high, f->side);
 }
 
-/// The most that a light's maps can hold, added to `flux`.
-static void add_flux(const lpv_frame *f, const lpv_frame_scene *in, const alp_light_info *l,
-                     float flux[3])
+/// The most that a map can hold: I or E × what the view sees.
+static void find_flux(const alp_light_info *l, double seen, float flux[3])
 {
-    double share = 4.0 * M_PI; // of a lamp: all directions
-    if (l->kind == ALP_LIGHT_DIRECTIONAL) {
-        share = 0.0;
-        for (uint32_t c = 0; c < f->volume.options.cascades; c++) {
-            const camera_view v = view_of_sun(f, in, c, l);
-            double right = 0.0, up = 0.0;
-            for (int k = 0; k < 3; k++) {
-                right += (double)v.right[k] * (double)v.right[k];
-                up += (double)v.up[k] * (double)v.up[k];
-            }
-            share += 4.0 * sqrt(right * up);
-        }
-    }
     for (int k = 0; k < 3; k++) {
-        flux[k] += (float)(share * (double)l->intensity * (double)l->color[k]);
+        flux[k] = (float)(seen * (double)l->intensity * (double)l->color[k]);
     }
+}
+
+/// Area of a parallel view's rectangle.
+static double area_of(const camera_view *v)
+{
+    double right = 0.0, up = 0.0;
+    for (int k = 0; k < 3; k++) {
+        right += (double)v->right[k] * (double)v->right[k];
+        up += (double)v->up[k] * (double)v->up[k];
+    }
+    return 4.0 * sqrt(right * up);
 }
 
 static void draw(const pass_maps *maps, const lpv_frame_scene *in, uint32_t light,
@@ -160,8 +172,10 @@ static void add_sun(lpv_frame *f, const lpv_frame_scene *in, uint32_t light)
     for (uint32_t c = 0; c < f->volume.options.cascades; c++) {
         const camera_view view = view_of_sun(f, in, c, &in->lights->infos[light]);
         draw(&f->maps, in, light, &view);
+        float flux[3];
         f->maps.map.cascade = (int)c;
-        gl_lpv_add_light(&f->volume, &f->maps.map);
+        find_flux(&in->lights->infos[light], area_of(&view), flux);
+        gl_lpv_add_light(&f->volume, &f->maps.map, flux);
         if (blocks_by_views(f)) {
             gl_lpv_add_blockers(&f->volume, &f->maps.map, true);
             gl_lpv_end_view(&f->volume);
@@ -177,7 +191,9 @@ static void add_lamp(lpv_frame *f, const lpv_frame_scene *in, uint32_t light)
     const bool narrow = is_narrow(l);
     pass_maps *maps = narrow ? &f->maps : &f->faces;
     const uint32_t side = narrow ? f->side : f->faces.map.width;
+    float flux[3];
     maps->map.cascade = -1;
+    find_flux(l, 2.0 * M_PI * (1.0 - cos(light_cone_of(&info, l).outer)), flux);
     for (int face = 0; face < (narrow ? 1 : LIGHT_FACES); face++) {
         double way[3] = {0.0, 0.0, 0.0};
         way[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
@@ -187,7 +203,7 @@ static void add_lamp(lpv_frame *f, const lpv_frame_scene *in, uint32_t light)
         const camera_view view = light_view_of_lamp(
             &info, l->position, way, narrow ? tan((double)l->outer_cone) : 1.0, side);
         draw(maps, in, light, &view);
-        gl_lpv_add_light(&f->volume, &maps->map);
+        gl_lpv_add_light(&f->volume, &maps->map, flux);
         if (blocks_by_views(f)) {
             gl_lpv_add_blockers(&f->volume, &maps->map, false);
         }
@@ -215,12 +231,8 @@ static void add_blockers(lpv_frame *f, const lpv_frame_scene *in)
 
 void lpv_frame_light(lpv_frame *f, const lpv_frame_scene *in)
 {
-    float flux[3] = {f->emitted[0], f->emitted[1], f->emitted[2]};
-    for (uint32_t i = 0; i < in->lights->count; i++) {
-        add_flux(f, in, &in->lights->infos[i], flux);
-    }
     gl_lpv_follow(&f->volume, in->eye, in->forward);
-    gl_lpv_begin(&f->volume, flux);
+    gl_lpv_begin(&f->volume);
     for (uint32_t i = 0; i < in->lights->count; i++) {
         if (in->lights->infos[i].kind == ALP_LIGHT_DIRECTIONAL) {
             add_sun(f, in, i);
@@ -229,7 +241,7 @@ void lpv_frame_light(lpv_frame *f, const lpv_frame_scene *in)
         }
     }
     if (f->emitters.width > 0) {
-        gl_lpv_add_light(&f->volume, &f->emitters);
+        gl_lpv_add_light(&f->volume, &f->emitters, f->emitted);
     }
     add_blockers(f, in);
     gl_lpv_propagate(&f->volume);

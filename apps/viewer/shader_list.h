@@ -17,6 +17,7 @@ extern const gl_shader shader_layer_frag, shader_background_frag, shader_film_fr
 extern const gl_shader shader_map_frag; // a reflective shadow map
 extern const gl_shader shader_air_frag;
 extern const gl_shader shader_lpv_light_comp, shader_lpv_blockers_comp, shader_lpv_merge_comp;
+extern const gl_shader shader_lpv_gather_comp;
 extern const gl_shader shader_lpv_faces_comp, shader_lpv_start_comp, shader_lpv_step_comp;
 extern const gl_shader shader_project_comp, shader_reduce_comp; // of cubes
 extern const gl_shader shader_ssao_places_frag, shader_ssao_frag, shader_ssao_blur_frag;

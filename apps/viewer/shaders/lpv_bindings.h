@@ -17,8 +17,8 @@
 #define TEXTURE_LPV_SUM 24
 
 // Storage buffers.
-#define BUFFER_LPV_INJECTED 0 // int [cascade][z][y][x][channel][term], in units
-#define BUFFER_LPV_VIEW 1     // int [cascade][z][y][x][LPV_NODE_TERMS] of nodes, in units
+#define BUFFER_LPV_COUNTS 0 // int [cascade][z][y][x][channel][term], in units
+#define BUFFER_LPV_VIEW 1   // int [cascade][z][y][x][LPV_NODE_TERMS] of nodes, in units
 
 // Uniforms of all passes: lpv_grid.glsl.
 #define UNIFORM_LPV_SIZE 64     // ivec3, cells of a grid

@@ -5,8 +5,8 @@
 
 layout(local_size_x = LPV_MAP_GROUP, local_size_y = LPV_MAP_GROUP) in;
 
-layout(std430, binding = BUFFER_LPV_INJECTED) buffer injected_light {
-    int injected[]; // [cascade][z][y][x][channel][term], in units
+layout(std430, binding = BUFFER_LPV_COUNTS) buffer light_counts {
+    int counts[]; // [cascade][z][y][x][channel][term], in units
 };
 layout(location = UNIFORM_LPV_UNITS) uniform vec3 units;
 
@@ -40,7 +40,7 @@ void main()
                                          vec4(0.25, 0.5 * normal.xyz)));
                 int first = 12 * cell + 4 * channel;
                 for (int term = 0; term < 4; term++) {
-                    atomicAdd(injected[first + term], lobe[term]);
+                    atomicAdd(counts[first + term], lobe[term]);
                 }
             }
         }

@@ -16,7 +16,6 @@
 TEST_CONTEXT(2);
 
 enum { ROWS = ALPI_LPV_ROWS };
-static const double UNITS = 0x1p30; // of the largest value
 
 enum { WIDE = 30, HIGH = 20, COUNT = WIDE * HIGH };
 static struct {
@@ -66,30 +65,35 @@ static void fill(alp_lpv *lpv, const alp_lpv_options *o)
     }
 }
 
-/// What was injected, to the buffer of the card.
-static void copy_light(const alp_lpv *lpv, gl_lpv *v)
+/// Element of a texture of the card that is term `term` of a channel in a cell.
+static size_t place_of(const gl_lpv *v, size_t cascade, size_t cell, size_t channel, size_t term)
+{
+    const size_t cells = alpi_lpv_cells(v->options.size);
+    return 4 * ((channel * v->options.cascades + cascade) * cells + cell) + term;
+}
+
+/// The same in a volume of the library.
+static size_t own_place(const gl_lpv *v, size_t cell, size_t channel, size_t term)
+{
+    const size_t n = v->options.size[0];
+    return (cell / n * ROWS + channel * ALPI_LPV_TERMS + term) * n + cell % n;
+}
+
+/// The injected light, to the card.
+static void copy_light(const alp_lpv *lpv, const gl_lpv *v)
 {
     const uint32_t *n = v->options.size;
-    const size_t cells = alpi_lpv_cells(n), cascades = v->options.cascades;
-    GLint *whole = malloc(cascades * cells * ROWS * sizeof *whole);
-    float most = 0.0f;
-    assert_non_null(whole);
-    for (size_t c = 0; c < cascades; c++) {
-        for (size_t i = 0; i < cells * ROWS; i++) {
-            most = fmaxf(most, fabsf(lpv->grids[c].injected[i]));
-        }
+    const size_t cells = alpi_lpv_cells(n), all = v->options.cascades * cells;
+    float *texels = malloc(12 * all * sizeof *texels);
+    assert_non_null(texels);
+    for (size_t i = 0; i < 12 * all; i++) {
+        const size_t at = i / 12 % cells, cascade = i / 12 / cells;
+        texels[place_of(v, cascade, at, i % 12 / 4, i % 4)] =
+            lpv->grids[cascade].injected[own_place(v, at, i % 12 / 4, i % 4)];
     }
-    for (size_t i = 0; i < cascades * cells * ROWS; i++) {
-        const size_t row = i / ROWS % cells / n[0], x = i / ROWS % n[0];
-        const float *rows = lpv->grids[i / (cells * ROWS)].injected + row * ROWS * n[0];
-        whole[i] = (GLint)lrint((double)(rows[i % ROWS * n[0] + x] / most) * UNITS);
-    }
-    for (int k = 0; k < 3; k++) {
-        v->units[k] = (float)((double)most / UNITS);
-    }
-    glNamedBufferSubData(v->injected, 0, (GLsizeiptr)(cascades * cells * ROWS * sizeof *whole),
-                         whole);
-    free(whole);
+    glTextureSubImage3D(v->injected, 0, 0, 0, 0, (GLsizei)n[0], (GLsizei)n[1],
+                        (GLsizei)(3 * v->options.cascades * n[2]), GL_RGBA, GL_FLOAT, texels);
+    free(texels);
 }
 
 static void copy_blockers(const alp_lpv *lpv, const gl_lpv *v)
@@ -118,24 +122,27 @@ static void copy_blockers(const alp_lpv *lpv, const gl_lpv *v)
     free(albedos);
 }
 
-/// Largest difference of the sums, over the largest sum.
-static double compare_sums(const alp_lpv *lpv, const gl_lpv *v)
+/// Largest difference of a texture and a volume of the library, over the largest value.
+/// @param sums whether they are the sums, else what was injected
+static double compare_volumes(const alp_lpv *lpv, const gl_lpv *v, bool sums)
 {
-    const uint32_t *n = v->options.size;
-    const size_t cells = alpi_lpv_cells(n), all = v->options.cascades * cells;
-    float(*sum)[4] = malloc(3 * all * sizeof *sum);
+    const size_t cells = alpi_lpv_cells(v->options.size), all = v->options.cascades * cells;
+    float *texels = malloc(12 * all * sizeof *texels);
     double most = 0.0, apart = 0.0;
-    assert_non_null(sum);
-    glGetTextureImage(v->sum, 0, GL_RGBA, GL_FLOAT, (GLsizei)(3 * all * sizeof *sum), sum);
+    assert_non_null(texels);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(sums ? v->sum : v->injected, 0, GL_RGBA, GL_FLOAT,
+                      (GLsizei)(12 * all * sizeof *texels), texels);
     for (size_t i = 0; i < 12 * all; i++) {
-        const size_t channel = i / 4 / all, at = i / 4 % all, cell = at % cells;
-        const float *own = lpv->grids[at / cells].sum +
-                           (cell / n[0] * ROWS + channel * ALPI_LPV_TERMS + i % 4) * n[0] +
-                           cell % n[0];
-        most = fmax(most, fabs((double)*own));
-        apart = fmax(apart, fabs((double)*own - (double)sum[i / 4][i % 4]));
+        const size_t at = i / 12 % cells, cascade = i / 12 / cells;
+        const alpi_lpv_grid *g = &lpv->grids[cascade];
+        const float *values = sums ? g->sum : g->injected;
+        const double own = (double)values[own_place(v, at, i % 12 / 4, i % 4)];
+        const double other = (double)texels[place_of(v, cascade, at, i % 12 / 4, i % 4)];
+        most = fmax(most, fabs(own));
+        apart = fmax(apart, fabs(own - other));
     }
-    free(sum);
+    free(texels);
     assert_true(most > 0.0);
     return apart / most;
 }
@@ -173,28 +180,7 @@ static void destroy_map(const gl_lpv_map *m)
     glDeleteTextures(4, textures);
 }
 
-/// Largest difference of what was injected, over the largest term.
-static double compare_light(const alp_lpv *lpv, const gl_lpv *v)
-{
-    const uint32_t *n = v->options.size;
-    const size_t cells = alpi_lpv_cells(n), count = v->options.cascades * cells * ROWS;
-    GLint *whole = malloc(count * sizeof *whole);
-    double most = 0.0, apart = 0.0;
-    assert_non_null(whole);
-    glGetNamedBufferSubData(v->injected, 0, (GLsizeiptr)(count * sizeof *whole), whole);
-    for (size_t i = 0; i < count; i++) {
-        const size_t row = i / ROWS % cells / n[0], x = i / ROWS % n[0];
-        const float *rows = lpv->grids[i / (cells * ROWS)].injected + row * ROWS * n[0];
-        const double own = (double)rows[i % ROWS * n[0] + x];
-        most = fmax(most, fabs(own));
-        apart = fmax(apart, fabs(own - (double)v->units[i % ROWS / 4] * whole[i]));
-    }
-    free(whole);
-    assert_true(most > 0.0);
-    return apart / most;
-}
-
-/// The same of opacity and albedo × opacity of the nodes.
+/// Largest difference of opacity and albedo × opacity of the nodes, over the largest.
 static double compare_blockers(const alp_lpv *lpv, const gl_lpv *v)
 {
     const size_t nodes = alpi_lpv_nodes(v->options.size);
@@ -237,19 +223,21 @@ TEST(maps_are_injected_as_in_the_library)
         ASSERT_OK(context, alp_lpv_follow(lpv, eye, ahead));
         gl_lpv_follow(&volume, eye, ahead);
         alp_lpv_begin(lpv);
-        gl_lpv_begin(&volume, (const float[3]){2 * COUNT, 2 * COUNT, 2 * COUNT});
+        const float most[3] = {COUNT, COUNT, COUNT};
+        gl_lpv_begin(&volume);
         for (uint32_t k = 0; k < 2; k++) { // two maps, each of which is a view
             const uint32_t cascade = k == 0 ? ALP_LPV_ALL_CASCADES : o.cascades - 1;
             const alp_lpv_surfels s = make_map(&o, (float)(1 + i % 3), 7 + k);
             const gl_lpv_map m = upload_map(k == 0 ? -1 : (int)cascade);
             ASSERT_OK(context, alp_lpv_add_light(lpv, cascade, &s));
             ASSERT_OK(context, alp_lpv_add_blockers(lpv, cascade, &s));
-            gl_lpv_add_light(&volume, &m);
+            gl_lpv_add_light(&volume, &m, most);
             gl_lpv_add_blockers(&volume, &m, k == 1);
             gl_lpv_end_view(&volume);
             destroy_map(&m);
         }
-        const double light = compare_light(lpv, &volume), blocked = compare_blockers(lpv, &volume);
+        const double light = compare_volumes(lpv, &volume, false),
+                     blocked = compare_blockers(lpv, &volume);
         print_message("%2d: light apart by %.2g, blockers by %.2g\n", i, light, blocked);
         ASSERT_NEAR(light, 0.0, 1e-5);
         ASSERT_NEAR(blocked, 0.0, 3e-5); // opacity is held in units
@@ -283,7 +271,7 @@ TEST(light_propagates_as_in_the_library)
         }
         ASSERT_OK(context, alp_lpv_propagate(lpv));
         gl_lpv_propagate(&volume);
-        const double apart = compare_sums(lpv, &volume);
+        const double apart = compare_volumes(lpv, &volume, true);
         print_message("%2d: apart by %.2g of the largest sum\n", i, apart);
         ASSERT_NEAR(apart, 0.0, 1e-5);
         gl_lpv_destroy(&volume);
@@ -295,18 +283,20 @@ TEST(light_propagates_as_in_the_library)
 // --- frames --------------------------------------------------------------------------------------
 
 /// Flux of the coarsest grid of the card: 4π Σ p0 over what was injected.
-static double flux_on_card(const gl_lpv *v, int channel)
+static double flux_on_card(const gl_lpv *v, size_t channel)
 {
     const size_t cells = alpi_lpv_cells(v->options.size), all = v->options.cascades * cells;
-    GLint *whole = malloc(all * ROWS * sizeof *whole);
+    float *texels = malloc(12 * all * sizeof *texels);
     double sum = 0.0;
-    assert_non_null(whole);
-    glGetNamedBufferSubData(v->injected, 0, (GLsizeiptr)(all * ROWS * sizeof *whole), whole);
-    for (size_t i = all - cells; i < all; i++) {
-        sum += whole[i * ROWS + 4 * (size_t)channel];
+    assert_non_null(texels);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glGetTextureImage(v->injected, 0, GL_RGBA, GL_FLOAT, (GLsizei)(12 * all * sizeof *texels),
+                      texels);
+    for (size_t i = 0; i < cells; i++) {
+        sum += (double)texels[place_of(v, v->options.cascades - 1, i, channel, 0)];
     }
-    free(whole);
-    return 4.0 * M_PI * (double)v->units[channel] * sum;
+    free(texels);
+    return 4.0 * M_PI * sum;
 }
 
 /// Light of a scene by rays and by rasterising: the flux of the maps, and the sums of the volume.
@@ -335,8 +325,8 @@ static void compare_frames(const char *name, const alp_lighting_options *lightin
                                 .lights = &lights,
                                 .eye = {o.centre[0], o.centre[1], o.centre[2]}};
     lpv_frame_light(&f, &in);
-    const double apart = compare_sums(lpv, &f.volume);
-    for (int k = 0; k < 3; k++) {
+    const double apart = compare_volumes(lpv, &f.volume, true);
+    for (size_t k = 0; k < 3; k++) {
         const double ratio = flux_on_card(&f.volume, k) / report.flux[k];
         print_message("%s: flux %.4f of that by rays, sums apart by %.3g\n", name, ratio, apart);
         ASSERT_NEAR(ratio, 1.0, flux_share);
@@ -380,4 +370,63 @@ TEST(frames_have_the_light_of_the_library)
     l.sun.azimuth = 0.3f;
     compare_frames("builtin:atrium", &l, 4096, 1, 0.01, 0.08);
     compare_frames("builtin:atrium", &l, 0, 3, 0.01, 0.08);
+}
+
+/// The flux of a closed room's lamps under a sun of some illuminance, which lights its roof alone.
+static double flux_under_sun(float illuminance)
+{
+    alp_scene *scene = test_load(context, "builtin:teapot-room");
+    const alp_lpv_options o = alp_lpv_options_for_scene(scene, 8, 1);
+    alp_lpv_scene_options frame = alp_lpv_scene_options_default();
+    alp_lighting_options lighting = alp_lighting_options_default();
+    lighting.sun.illuminance = illuminance;
+    lighting.sun.elevation = 1.5f;
+    lpv_frame f;
+    gl_scene drawn;
+    gl_lights lights;
+    int code = EXIT_DONE;
+    assert_int_equal(gl_scene_create(scene, true, false, &drawn), EXIT_DONE);
+    assert_int_equal(gl_lights_create(scene, &lighting, &lights), EXIT_DONE);
+    frame.points = 0;
+    ASSERT_OK(context, lpv_frame_create(scene, &o, &frame, &code, &f));
+    assert_int_equal(code, EXIT_DONE);
+    const lpv_frame_scene in = {.scene = scene,
+                                .drawn = &drawn,
+                                .lights = &lights,
+                                .eye = {o.centre[0], o.centre[1], o.centre[2]}};
+    lpv_frame_light(&f, &in);
+    const double flux = flux_on_card(&f.volume, 1);
+    lpv_frame_destroy(&f);
+    gl_lights_destroy(&lights);
+    gl_scene_destroy(&drawn);
+    alp_scene_destroy(scene);
+    test_gl_check();
+    return flux;
+}
+
+/// Each map is counted in units of its own, so that weak light beside a strong sun is not lost.
+TEST(weak_light_is_kept_beside_a_strong_sun)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    const double alone = flux_under_sun(0.0f), beside = flux_under_sun(1e6f);
+    print_message("%.4g W alone, %.4g W under a sun\n", alone, beside);
+    assert_true(alone > 0.0);
+    assert_true(beside >= 0.9999 * alone);
+}
+
+/// A volume that the card cannot hold is refused by one message, before anything is made.
+TEST(a_volume_beyond_the_card_is_refused)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    alp_lpv_options o = alp_lpv_options_default();
+    gl_lpv volume;
+    o.size[0] = o.size[1] = o.size[2] = 512;
+    o.cascades = 8;
+    assert_int_equal(gl_lpv_create(&o, &volume), EXIT_FAILED);
+    gl_lpv_destroy(&volume);
+    test_gl_check();
 }
