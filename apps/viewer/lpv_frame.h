@@ -25,7 +25,7 @@ alp_result lpv_frame_create(const alp_scene *scene, const alp_lpv_options *optio
                             const alp_lpv_scene_options *frame, int *code, lpv_frame *f);
 void lpv_frame_destroy(lpv_frame *f);
 
-/// What a frame is made of.
+/// The parts of a frame.
 typedef struct lpv_frame_scene {
     const alp_scene *scene;
     const gl_scene *drawn;

@@ -38,8 +38,8 @@ vec4 arrive(vec4 from, int axis, float way, float open[5])
     return vec4(0.0795774715 * (f[0] + sides), 0.1591549431 * turn_back(v, axis));
 }
 
-/// What blockers throw back of the light that leaves along an axis.
-vec4 come_back(vec4 own, int axis, float way, float open[5], float albedo)
+/// Light that blockers reflect, of that which leaves along an axis.
+vec4 reflect_flux(vec4 own, int axis, float way, float open[5], float albedo)
 {
     float f[5];
     read_faces(own, axis, way, f);
@@ -82,7 +82,7 @@ void main()
                 p[channel] += arrive(texelFetch(light, from + c, 0), axis, way, open);
             }
             if (reflects) {
-                p[channel] += come_back(texelFetch(light, at + c, 0), axis, way, shut,
+                p[channel] += reflect_flux(texelFetch(light, at + c, 0), axis, way, shut,
                                         albedo[channel]);
             }
         }
