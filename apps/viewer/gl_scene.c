@@ -86,8 +86,6 @@ static int load_geometry(gl_scene *d, const alp_geometry *g, uint32_t places[ALP
     const size_t count = g->vertex_count;
     d->vertex_count = g->vertex_count;
     d->colored = g->colors != NULL;
-    glCreateVertexArrays(1, &d->array);
-    glCreateBuffers(GL_SCENE_BUFFERS, d->buffers);
     int code =
         load_buffer(d->buffers[BUFFER_POSITIONS], g->positions, count * sizeof *g->positions);
     if (code == EXIT_DONE) {
@@ -212,6 +210,8 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
     const alp_geometry geometry = alp_scene_get_geometry(scene);
     const alp_scene_info info = alp_scene_get_info(scene);
     uint32_t places[ALP_UV_SETS];
+    glCreateVertexArrays(1, &d->array);
+    glCreateBuffers(GL_SCENE_BUFFERS, d->buffers);
     gl_samplers_create(level_zero, d->samplers);
     d->white = gl_texture_white();
     int code = load_geometry(d, &geometry, places);
@@ -225,7 +225,7 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
 
 void gl_scene_destroy(gl_scene *d)
 {
-    if (d->array == 0) {
+    if (d->array == 0) { // there may be no context either
         return;
     }
     for (uint32_t i = 0; i < d->image_count && d->textures != NULL; i++) {
