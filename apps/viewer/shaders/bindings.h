@@ -22,6 +22,11 @@
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
 #define BUFFER_SH_PARTS 0        // of gl_cube: float [part][9][3]
 #define BUFFER_SH 1              // of gl_cube: float [9][3]
+#define BUFFERS 14               // bindings in use
+
+// Storage blocks of the shaders that have most of them.
+#define BLOCKS_VERTEX 9   // surfaces.vert
+#define BLOCKS_FRAGMENT 6 // field.frag and ambient.frag
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0

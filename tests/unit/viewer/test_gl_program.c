@@ -5,6 +5,7 @@
 #include "gl_context.h"
 #include "options/options.h"
 #include "shader_list.h"
+#include "shaders/bindings.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -30,6 +31,34 @@ static void give_errors(char *text, size_t size)
     rewind(caught);
     text[fread(text, 1, size - 1, caught)] = '\0';
     fclose(caught);
+}
+
+static int count_blocks(const gl_shader *shader)
+{
+    int count = 0;
+    for (const char *at = shader->text; (at = strstr(at, "layout(std430")) != NULL; at++) {
+        count++;
+    }
+    return count;
+}
+
+// gl_context_open refuses cards that have fewer.
+TEST(storage_blocks_are_counted)
+{
+    const gl_shader *const fragments[] = {
+        &shader_none_frag,   &shader_albedo_frag,     &shader_lightmap_frag,
+        &shader_direct_frag, &shader_ambient_frag,    &shader_shadow_frag,
+        &shader_ao_frag,     &shader_sh_frag,         &shader_points_frag,
+        &shader_field_frag,  &shader_map_frag,        &shader_ssao_places_frag,
+        &shader_layer_frag,  &shader_background_frag, &shader_film_frag,
+        &shader_air_frag};
+    int most = 0;
+    for (size_t i = 0; i < sizeof fragments / sizeof *fragments; i++) {
+        const int count = count_blocks(fragments[i]);
+        most = count > most ? count : most;
+    }
+    assert_int_equal(count_blocks(&shader_surfaces_vert), BLOCKS_VERTEX);
+    assert_int_equal(most, BLOCKS_FRAGMENT);
 }
 
 TEST(programs_of_the_viewer_compile)
