@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pass_background.h"
 
+#include "gl_buffer.h"
 #include "gl_program.h"
 #include "messages.h"
 #include "options/options.h"
@@ -135,19 +136,16 @@ static GLuint list_suns(const alp_scene *scene, const alp_lighting_options *o, s
     return count;
 }
 
-static void load_suns(const alp_scene *scene, const alp_lighting_options *lighting,
-                      pass_background *pass)
+static int load_suns(const alp_scene *scene, const alp_lighting_options *lighting,
+                     pass_background *pass)
 {
     const size_t most = (size_t)alp_scene_get_info(scene).lights + 1;
     shader_sun *suns = allocate_or_exit(NULL, most * sizeof *suns);
     pass->sun_count = lighting != NULL ? list_suns(scene, lighting, suns) : 0;
-    glCreateBuffers(1, &pass->suns);
-    glNamedBufferStorage(pass->suns, (GLsizeiptr)(most * sizeof *suns), NULL,
-                         GL_DYNAMIC_STORAGE_BIT);
-    if (pass->sun_count > 0) {
-        glNamedBufferSubData(pass->suns, 0, (GLsizeiptr)(pass->sun_count * sizeof *suns), suns);
-    }
+    const int code =
+        gl_buffer_load("the list of suns", suns, pass->sun_count * sizeof *suns, &pass->suns);
     free(suns);
+    return code;
 }
 
 // --- the pass ------------------------------------------------------------------------------------
@@ -158,8 +156,7 @@ int pass_background_create(alp_context *context, const alp_scene *scene,
     *pass = (pass_background){.program =
                                   gl_program_create(&shader_screen_vert, &shader_background_frag)};
     glCreateVertexArrays(1, &pass->array);
-    load_suns(scene, lighting, pass);
-    if (pass->program == 0) {
+    if (pass->program == 0 || load_suns(scene, lighting, pass) != EXIT_DONE) {
         return EXIT_FAILED;
     }
     return lighting != NULL ? set_sky(context, lighting, pass) : EXIT_DONE;

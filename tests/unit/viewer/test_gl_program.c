@@ -2,6 +2,7 @@
 // Programs of shaders, and errors of OpenGL.
 #include "test_gl.h"
 
+#include "gl_buffer.h"
 #include "gl_context.h"
 #include "options/options.h"
 #include "shader_list.h"
@@ -111,5 +112,37 @@ TEST(errors_of_opengl_are_failures)
     give_errors(text, sizeof text);
     assert_non_null(strstr(text, "alpenglow: OpenGL: "));
     assert_true(test_gl_open()); // forgets it
+    test_gl_check();
+}
+
+TEST(buffers_are_refused_that_the_card_does_not_take)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    GLint64 most = 0;
+    GLuint buffer = 1;
+    char text[2048];
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    catch_errors();
+    const int code = gl_buffer_load("the test", NULL, (size_t)most + 1, &buffer);
+    give_errors(text, sizeof text);
+    assert_int_equal(code, EXIT_FAILED);
+    assert_int_equal(buffer, 0);
+    assert_non_null(strstr(text, "alpenglow: the test needs a buffer of "));
+    test_gl_check();
+}
+
+TEST(empty_buffers_have_an_element)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    GLuint buffer = 0;
+    GLint64 size = 0;
+    assert_int_equal(gl_buffer_load("the test", NULL, 0, &buffer), EXIT_DONE);
+    glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    assert_true(size > 0);
+    glDeleteBuffers(1, &buffer);
     test_gl_check();
 }
