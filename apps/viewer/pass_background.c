@@ -3,6 +3,7 @@
 
 #include "gl_buffer.h"
 #include "gl_program.h"
+#include "gl_textures.h"
 #include "messages.h"
 #include "options/options.h"
 #include "shader_list.h"
@@ -56,6 +57,9 @@ static int load_sky(alp_context *context, const alp_lighting_options *lighting,
         o.sky.turn = 0.0f; // texels of the texture are those of the image
     }
     const uint32_t height = width / 2;
+    if (gl_texture_check("the image of the sky", width, height) != EXIT_DONE) {
+        return EXIT_FAILED;
+    }
     float(*texels)[3] = allocate_or_exit(NULL, (size_t)width * height * sizeof *texels);
     const alp_result result = fill_sky(context, &o, width, height, texels);
     if (result == ALP_OK) {

@@ -4,6 +4,7 @@
 
 #include "gl_buffer.h"
 #include "gl_context.h"
+#include "gl_textures.h"
 #include "options/options.h"
 #include "shader_list.h"
 #include "shaders/bindings.h"
@@ -144,5 +145,32 @@ TEST(empty_buffers_have_an_element)
     glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     assert_true(size > 0);
     glDeleteBuffers(1, &buffer);
+    test_gl_check();
+}
+
+TEST_WITH_CONTEXT(images_are_refused_that_the_card_does_not_take, 1)
+{
+    if (!test_gl_open()) {
+        skip();
+    }
+    GLint most = 0;
+    GLuint texture = 0;
+    alp_image *image = NULL;
+    char text[2048];
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const alp_image_info info = {
+        .width = (uint32_t)most + 1, .height = 1, .channels = 1, .component = ALP_COMPONENT_U8};
+    ASSERT_OK(context, alp_image_create(context, info, &image));
+    catch_errors();
+    const int code = gl_texture_create(image, false, &texture);
+    const int sky = gl_texture_check("the image of the sky", 2, (uint32_t)most + 1);
+    give_errors(text, sizeof text);
+    assert_int_equal(code, EXIT_FAILED);
+    assert_int_equal(sky, EXIT_FAILED);
+    assert_int_equal(texture, 0);
+    assert_non_null(strstr(text, "alpenglow: an image of the scene has "));
+    assert_non_null(strstr(text, "alpenglow: the image of the sky has 2 x "));
+    assert_int_equal(gl_texture_check("", (uint32_t)most, (uint32_t)most), EXIT_DONE);
+    alp_image_destroy(image);
     test_gl_check();
 }
