@@ -211,10 +211,10 @@ int gl_context_check(gl_context *c)
 
 // --- the whole -----------------------------------------------------------------------------------
 
-/// Whether libepoxy finds EGL: it ends the program where it does not.
-static bool has_egl(void)
+/// Whether libepoxy finds a library: it ends the program where it does not.
+static bool has_library(const char *name)
 {
-    void *library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+    void *library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
     if (library != NULL) {
         dlclose(library);
     }
@@ -224,9 +224,12 @@ static bool has_egl(void)
 int gl_context_open(gl_context *c)
 {
     *c = (gl_context){0};
-    if (!has_egl()) {
+    if (!has_library("libEGL.so.1")) {
         return failure("there is no EGL (libEGL.so.1); install libegl1, and libegl-mesa0 or the "
                        "driver of the graphics card");
+    }
+    if (!has_library("libOpenGL.so.0") && !has_library("libGL.so.1")) {
+        return failure("there is no OpenGL (libOpenGL.so.0 or libGL.so.1); install libopengl0");
     }
     EGLDisplay displays[DISPLAY_LIMIT + 2];
     char found[LINE_SIZE] = "", text[LINE_SIZE + 160];
