@@ -23,7 +23,9 @@ typedef struct shader_material {
 _Static_assert(sizeof(shader_material) == (4 + 4 + 2 + 2 + 1 + 5 + 2 + 40) * 4,
                "std430 has no holes here");
 
-enum { MATERIAL_DOUBLE_SIDED = 1, MATERIAL_EXISTS = 2, MATERIAL_NORMAL_MAP = 4 };
+_Static_assert(ALP_ALPHA_OPAQUE == ALPHA_OPAQUE && ALP_ALPHA_MASK == ALPHA_MASK &&
+                   ALP_ALPHA_BLEND == ALPHA_BLEND,
+               "shaders know the library's numbers");
 
 // --- geometry ------------------------------------------------------------------------------------
 

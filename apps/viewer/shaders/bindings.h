@@ -114,6 +114,16 @@
 #define READ_PROBES 3 // at pixels too, from the textures of probes
 #define READ_LPV 4    // at pixels too, from the volume on the card
 
+// Flags of a material.
+#define MATERIAL_DOUBLE_SIDED 1u
+#define MATERIAL_EXISTS 2u
+#define MATERIAL_NORMAL_MAP 4u
+
+// Kinds of alpha, numbered as alp_alpha_mode.
+#define ALPHA_OPAQUE 0u
+#define ALPHA_MASK 1u
+#define ALPHA_BLEND 2u
+
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u
 
