@@ -61,7 +61,7 @@ typedef struct view_mode {
                    mode_light *light);
     /// Binds it, and sets the uniforms of the current program, which is given. NULL: there is none.
     void (*bind)(const mode_light *light, GLuint program);
-    /// Brings the light to a moment of a flight. NULL: it stands still.
+    /// Updates the light for a time of a flight. NULL: it stands still.
     /// @return EXIT_DONE, or an exit code after a message
     int (*move)(session *s, double time, const alp_camera *camera, mode_light *light);
 } view_mode;

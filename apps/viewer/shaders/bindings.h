@@ -58,7 +58,7 @@
 #define UNIFORM_NEAR 4     // float, metres; of a parallel view 1 / the far plane
 #define UNIFORM_SIZE 5     // vec2, pixels
 #define UNIFORM_PARALLEL 6 // bool, whether rays are parallel
-// Of pass_surfaces.
+// Uniforms of pass_surfaces.
 #define UNIFORM_MATERIAL 8    // uint
 #define UNIFORM_VERTICES 9    // uint, vertices of the scene
 #define UNIFORM_COLORED 10    // bool, whether vertices have colours
@@ -74,18 +74,18 @@
 #define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 #define UNIFORM_FIRST_TRIANGLE 23 // uint, number of triangle 0 in pictures of triangles
 #define UNIFORM_SSAO 48           // bool, whether TEXTURE_SSAO counts
-// Of pass_maps.
+// Uniforms of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu
-// Of pass_background.
+// Uniforms of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
 #define UNIFORM_SKY_DOWN 10  // vec3, radiance
 #define UNIFORM_SKY_TURN 11  // float, turns of the whole circle
 #define UNIFORM_SUN_COUNT 12 // uint
-// Of pass_ssao.
+// Uniforms of pass_ssao.
 #define UNIFORM_SSAO_RADIUS 8 // float, metres
-// Of pass_film.
+// Uniforms of pass_film.
 #define UNIFORM_GAIN 8     // float, 2^exposure
 #define UNIFORM_TONE 9     // int, an alp_tone
 #define UNIFORM_WHITE 10   // float, the L that becomes white

@@ -38,7 +38,7 @@ vec4 arrive(vec4 from, int axis, float way, float open[5])
     return vec4(0.0795774715 * (f[0] + sides), 0.1591549431 * turn_back(v, axis));
 }
 
-/// What blockers throw back of the light that leaves along an axis.
+/// Light that blockers reflect, from the light that leaves along an axis.
 vec4 come_back(vec4 own, int axis, float way, float open[5], float albedo)
 {
     float f[5];

@@ -159,7 +159,7 @@ static alp_scene *build_room(alp_context *context, bool whole)
     return scene;
 }
 
-/// What is drawn of a room.
+/// A picture of a room.
 typedef struct room_view {
     const char *mode;
     const alp_field *field; // of probes
