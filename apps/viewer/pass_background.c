@@ -2,7 +2,6 @@
 #include "pass_background.h"
 
 #include "gl_buffer.h"
-#include "gl_program.h"
 #include "gl_textures.h"
 #include "messages.h"
 #include "options/options.h"
@@ -157,10 +156,9 @@ static int load_suns(const alp_scene *scene, const alp_lighting_options *lightin
 int pass_background_create(alp_context *context, const alp_scene *scene,
                            const alp_lighting_options *lighting, pass_background *pass)
 {
-    *pass = (pass_background){.program =
-                                  gl_program_create(&shader_screen_vert, &shader_background_frag)};
-    glCreateVertexArrays(1, &pass->array);
-    if (pass->program == 0 || load_suns(scene, lighting, pass) != EXIT_DONE) {
+    *pass = (pass_background){0};
+    if (screen_pass_create(&shader_background_frag, &pass->screen) != EXIT_DONE ||
+        load_suns(scene, lighting, pass) != EXIT_DONE) {
         return EXIT_FAILED;
     }
     return lighting != NULL ? set_sky(context, lighting, pass) : EXIT_DONE;
@@ -168,22 +166,18 @@ int pass_background_create(alp_context *context, const alp_scene *scene,
 
 void pass_background_destroy(pass_background *pass)
 {
-    if (pass->array != 0) {
-        glDeleteProgram(pass->program);
-        glDeleteVertexArrays(1, &pass->array);
+    if (pass->screen.array != 0) {
         glDeleteTextures(1, &pass->sky);
         glDeleteBuffers(1, &pass->suns);
     }
+    screen_pass_destroy(&pass->screen);
     *pass = (pass_background){0};
 }
 
 void pass_background_draw(const pass_background *pass, const camera_view *view, const gl_targets *t,
                           GLuint left)
 {
-    gl_targets_bind(t, t->light_frame);
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(pass->program);
-    glBindVertexArray(pass->array);
+    screen_pass_bind(&pass->screen, t, t->light_frame);
     camera_view_bind(view);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_SUNS, pass->suns);
     glBindTextureUnit(TEXTURE_PICTURE, t->sum);
@@ -194,5 +188,5 @@ void pass_background_draw(const pass_background *pass, const camera_view *view, 
     glUniform3fv(UNIFORM_SKY_DOWN, 1, pass->down);
     glUniform1f(UNIFORM_SKY_TURN, pass->turn);
     glUniform1ui(UNIFORM_SUN_COUNT, pass->sun_count);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    screen_pass_draw();
 }
