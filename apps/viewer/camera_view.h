@@ -8,6 +8,9 @@
 
 #include <stdbool.h>
 
+/// Diagonal of the scene's bounds, metres.
+double scene_diagonal(const alp_scene_info *info);
+
 /// A pinhole and its picture. Through pixels x, y from the upper left corner goes the direction
 /// forward + (2 x / width − 1) right + (1 − 2 y / height) up. Depth is near_plane / distance.
 /// In a parallel view that sum is the offset of the ray's origin instead, with right and up in

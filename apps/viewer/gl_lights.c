@@ -72,13 +72,13 @@ static alp_light_info info_of_lamp(const alp_lamp *lamp)
 
 static alp_light_info info_of_sun(const alp_sun_options *sun)
 {
-    const double azimuth = (double)sun->azimuth, elevation = (double)sun->elevation;
-    alp_light_info light = {.kind = ALP_LIGHT_DIRECTIONAL,
-                            .intensity = sun->illuminance,
-                            .direction = {(float)(-sin(azimuth) * cos(elevation)),
-                                          (float)-sin(elevation),
-                                          (float)(-cos(azimuth) * cos(elevation))},
-                            .range = INFINITY};
+    double toward[3];
+    alp_light_info light = {
+        .kind = ALP_LIGHT_DIRECTIONAL, .intensity = sun->illuminance, .range = INFINITY};
+    sun_toward(sun, toward);
+    for (int k = 0; k < 3; k++) {
+        light.direction[k] = (float)-toward[k];
+    }
     memcpy(light.color, sun->color, sizeof light.color);
     return light;
 }

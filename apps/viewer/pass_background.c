@@ -3,6 +3,7 @@
 
 #include "gl_buffer.h"
 #include "gl_textures.h"
+#include "light_views.h"
 #include "messages.h"
 #include "options/options.h"
 #include "shader_list.h"
@@ -122,9 +123,8 @@ static GLuint list_suns(const alp_scene *scene, const alp_lighting_options *o, s
     const uint32_t lights = alp_scene_get_info(scene).lights;
     GLuint count = 0;
     if (s->illuminance > 0.0f && (double)s->size >= LEAST_SUN_SIZE) {
-        const double azimuth = (double)s->azimuth, elevation = (double)s->elevation;
-        const double toward[3] = {sin(azimuth) * cos(elevation), sin(elevation),
-                                  cos(azimuth) * cos(elevation)};
+        double toward[3];
+        sun_toward(s, toward);
         suns[count++] = make_sun(toward, (double)s->illuminance, s->color, (double)s->size);
     }
     for (uint32_t i = 0; i < lights; i++) {
