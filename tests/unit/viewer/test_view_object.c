@@ -183,7 +183,7 @@ static mode_light make_light(const alp_scene *scene, const room_view *v)
         alp_lpv_scene_options frame = alp_lpv_scene_options_default();
         int code = EXIT_FAILED;
         o.cascades = 1;
-        o.cell = 0.25f;
+        o.cell = 0.25;
         o.centre[1] = 1.0;
         o.blockers = true;
         o.iterations = 12;
