@@ -35,6 +35,7 @@ build_packages="
     libepoxy-dev        -
     libegl-dev          -
     libegl-mesa0        -
+    libopengl0          -
     libgl1-mesa-dri     -"
 check_packages="
     python3             -

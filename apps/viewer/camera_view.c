@@ -27,15 +27,23 @@ static void normalize(double v[3])
     }
 }
 
+double scene_diagonal(const alp_scene_info *info)
+{
+    double sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        sum = hypot(sum, (double)info->bounds_max[k] - (double)info->bounds_min[k]);
+    }
+    return sum;
+}
+
 camera_view camera_view_of(const alp_camera *c, uint32_t width, uint32_t height,
                            const alp_scene_info *info)
 {
     camera_view view = {.width = width, .height = height};
-    double forward[3], right[3], up[3], given[3], diagonal = 0.0;
+    double forward[3], right[3], up[3], given[3];
     for (int k = 0; k < 3; k++) {
         forward[k] = (double)c->target[k] - (double)c->position[k];
         given[k] = (double)c->up[k];
-        diagonal = hypot(diagonal, (double)info->bounds_max[k] - (double)info->bounds_min[k]);
     }
     normalize(forward);
     set_cross(forward, given, right);
@@ -48,7 +56,7 @@ camera_view camera_view_of(const alp_camera *c, uint32_t width, uint32_t height,
         view.right[k] = (float)(right[k] * half * aspect);
         view.up[k] = (float)(up[k] * half);
     }
-    view.near_plane = (float)fmax(NEAR_SHARE * diagonal, 1e-30);
+    view.near_plane = (float)fmax(NEAR_SHARE * scene_diagonal(info), 1e-30);
     return view;
 }
 

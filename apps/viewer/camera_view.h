@@ -8,9 +8,12 @@
 
 #include <stdbool.h>
 
+/// Diagonal of the scene's bounds, metres.
+double scene_diagonal(const alp_scene_info *info);
+
 /// A pinhole and its picture. Through pixels x, y from the upper left corner goes the direction
 /// forward + (2 x / width − 1) right + (1 − 2 y / height) up. Depth is near_plane / distance.
-/// Of a parallel view that sum is the offset of the ray's origin instead, with right and up in
+/// In a parallel view that sum is the offset of the ray's origin instead, with right and up in
 /// metres; its depth is 1 - distance / far_plane.
 typedef struct camera_view {
     float origin[3];  // metres

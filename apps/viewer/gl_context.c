@@ -3,6 +3,7 @@
 
 #include "messages.h"
 #include "options/options.h"
+#include "shaders/bindings.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -13,8 +14,18 @@
 
 enum { DEVICE_LIMIT = 32, DISPLAY_LIMIT = 2 * DEVICE_LIMIT, LINE_SIZE = 640 };
 
-/// What this program reads from storage buffers of a vertex shader.
-enum { STORAGE_BLOCKS = 8 };
+/// A limit of OpenGL that is too low on some cards.
+typedef struct gl_limit {
+    GLenum name;
+    GLint need;
+    const char *text;
+} gl_limit;
+static const gl_limit limits[] = {
+    {GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, BLOCKS_VERTEX, "storage blocks of vertex shaders"},
+    {GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS, BLOCKS_FRAGMENT, "storage blocks of fragment shaders"},
+    {GL_MAX_COMBINED_SHADER_STORAGE_BLOCKS, BLOCKS_VERTEX + BLOCKS_FRAGMENT,
+     "storage blocks of a program"},
+    {GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, BUFFERS, "bindings of storage buffers"}};
 
 // --- displays ------------------------------------------------------------------------------------
 
@@ -122,6 +133,18 @@ static void describe(gl_context *c, char *text, size_t size)
     drop_context(c);
 }
 
+/// The first limit of the current context that is too low, or NULL. @param has out: its value
+static const gl_limit *find_low_limit(GLint *has)
+{
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+        glGetIntegerv(limits[i].name, has);
+        if (*has < limits[i].need) {
+            return &limits[i];
+        }
+    }
+    return NULL;
+}
+
 /// @param found out: what a display without OpenGL 4.5 has instead; else unchanged
 static bool open_display(gl_context *c, char found[LINE_SIZE])
 {
@@ -134,23 +157,24 @@ static bool open_display(gl_context *c, char found[LINE_SIZE])
                              EGL_CONTEXT_OPENGL_DEBUG,
                              EGL_TRUE,
                              EGL_NONE};
-    GLint blocks = 0;
+    const gl_limit *low = NULL;
+    GLint has = 0;
     if (c->display == EGL_NO_DISPLAY || !eglInitialize(c->display, NULL, NULL)) {
         return false;
     }
     if (eglBindAPI(EGL_OPENGL_API) && make_current(c, wanted)) {
-        glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &blocks);
-        if (epoxy_gl_version() >= 45 && blocks >= STORAGE_BLOCKS) {
+        low = find_low_limit(&has);
+        if (epoxy_gl_version() >= 45 && low == NULL) {
             return true;
         }
     }
     drop_context(c);
     if (found[0] == '\0') {
         describe(c, found, LINE_SIZE);
-        if (blocks > 0 && blocks < STORAGE_BLOCKS) {
+        if (low != NULL) {
             const size_t length = strlen(found);
-            snprintf(found + length, LINE_SIZE - length, ", %d storage blocks of the %d needed",
-                     blocks, STORAGE_BLOCKS);
+            snprintf(found + length, LINE_SIZE - length, ", which has %d %s, and %d are needed",
+                     has, low->text, low->need);
         }
     }
     eglTerminate(c->display);
@@ -187,10 +211,10 @@ int gl_context_check(gl_context *c)
 
 // --- the whole -----------------------------------------------------------------------------------
 
-/// Whether libepoxy finds EGL: it ends the program where it does not.
-static bool has_egl(void)
+/// Whether libepoxy finds a library: it ends the program where it does not.
+static bool has_library(const char *name)
 {
-    void *library = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
+    void *library = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
     if (library != NULL) {
         dlclose(library);
     }
@@ -200,9 +224,12 @@ static bool has_egl(void)
 int gl_context_open(gl_context *c)
 {
     *c = (gl_context){0};
-    if (!has_egl()) {
+    if (!has_library("libEGL.so.1")) {
         return failure("there is no EGL (libEGL.so.1); install libegl1, and libegl-mesa0 or the "
                        "driver of the graphics card");
+    }
+    if (!has_library("libOpenGL.so.0") && !has_library("libGL.so.1")) {
+        return failure("there is no OpenGL (libOpenGL.so.0 or libGL.so.1); install libopengl0");
     }
     EGLDisplay displays[DISPLAY_LIMIT + 2];
     char found[LINE_SIZE] = "", text[LINE_SIZE + 160];

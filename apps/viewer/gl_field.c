@@ -3,6 +3,7 @@
 
 #include "field_objects.h"
 #include "field_points.h"
+#include "gl_buffer.h"
 #include "messages.h"
 #include "options/options.h"
 #include "shaders/bindings.h"
@@ -13,32 +14,28 @@
 
 enum { SIDES = 2 };
 
-static GLuint make_buffer(size_t size)
-{
-    GLuint buffer = 0;
-    glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, (GLsizeiptr)(size > 0 ? size : 1), NULL, GL_DYNAMIC_STORAGE_BIT);
-    return buffer;
-}
-
-static void make_buffers(const alp_scene *scene, gl_field *d)
+static int make_buffers(const alp_scene *scene, gl_field *d)
 {
     const alp_scene_info info = alp_scene_get_info(scene);
-    const size_t vertices = alp_scene_get_geometry(scene).vertex_count;
-    enum { OBJECT_SIZE = FIELD_OBJECT_COEFFICIENTS * 4 * sizeof(float) };
-    d->vertices = make_buffer(d->read == READ_VERTEX ? SIDES * vertices * 3 * sizeof(float) : 16);
-    d->objects = make_buffer(d->read == READ_OBJECT ? info.surfaces * (size_t)OBJECT_SIZE : 16);
+    const size_t vertices = d->read == READ_VERTEX ? alp_scene_get_geometry(scene).vertex_count : 0;
+    const size_t objects = d->read == READ_OBJECT ? info.surfaces : 0;
+    const int code =
+        gl_buffer_load("the field", NULL, SIDES * vertices * sizeof(float[3]), &d->vertices);
+    return code == EXIT_DONE
+               ? gl_buffer_load("the field", NULL,
+                                objects * FIELD_OBJECT_COEFFICIENTS * sizeof(float[4]), &d->objects)
+               : code;
 }
 
-void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
-                     gl_field *d)
+int gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
+                    gl_field *d)
 {
-    *d = (gl_field){.read = read, .workers = 1};
-    make_buffers(scene, d);
-    glCreateTextures(GL_TEXTURE_2D, 1, &d->pixels);
     const bool pixels = read == READ_PIXEL;
+    *d = (gl_field){.read = read, .workers = 1};
+    glCreateTextures(GL_TEXTURE_2D, 1, &d->pixels);
     glTextureStorage2D(d->pixels, 1, GL_RGBA32F, pixels ? (GLsizei)width : 1,
                        pixels ? (GLsizei)height : 1);
+    return make_buffers(scene, d);
 }
 
 void gl_field_destroy(gl_field *d)
@@ -55,7 +52,7 @@ void gl_field_destroy(gl_field *d)
 void gl_field_create_reader(const alp_scene *scene, const gl_field *of, gl_field *reader)
 {
     *reader = *of;
-    make_buffers(scene, reader);
+    (void)make_buffers(scene, reader); // objects are too small to be refused
     reader->changed = true;
 }
 

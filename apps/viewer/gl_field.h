@@ -29,11 +29,13 @@ typedef struct gl_field {
 /// Makes what a kind of reading needs.
 /// @param read  READ_PIXEL, READ_VERTEX or READ_OBJECT
 /// @param width, height of pictures
-void gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
-                     gl_field *drawn);
+/// @return EXIT_DONE, or EXIT_FAILED after a message; gl_field_destroy in both cases
+int gl_field_create(const alp_scene *scene, GLint read, uint32_t width, uint32_t height,
+                    gl_field *drawn);
 void gl_field_destroy(gl_field *drawn);
 
-/// Makes a reader of the same field for another scene, with vertices and surfaces of its own.
+/// Makes a reader of the same field for the scene of an object, with vertices and surfaces of its
+/// own.
 /// @param of what the reader follows: gl_field_follow before each update
 void gl_field_create_reader(const alp_scene *scene, const gl_field *of, gl_field *reader);
 /// Takes over the field, and all of it that is not of vertices and surfaces.

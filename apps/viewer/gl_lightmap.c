@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl_lightmap.h"
 
+#include "gl_buffer.h"
 #include "messages.h"
 #include "options/options.h"
 #include "shaders/bindings.h"
@@ -59,7 +60,7 @@ static GLuint sets_of(const float *strongest, const float *sets)
     return members;
 }
 
-static void load_triangles(const alp_scene *scene, const alp_atlas *atlas, gl_lightmap *d)
+static int load_triangles(const alp_scene *scene, const alp_atlas *atlas, gl_lightmap *d)
 {
     const size_t count = alp_scene_get_info(scene).triangles;
     const uint32_t *pages = alp_atlas_triangle_pages(atlas);
@@ -72,12 +73,13 @@ static void load_triangles(const alp_scene *scene, const alp_atlas *atlas, gl_li
         entries[t] = pages[t] == UINT32_MAX ? MAP_NONE : pages[t] | sets << MAP_SETS_SHIFT;
     }
     d->sets = blended != NULL ? SETS : 1;
-    glCreateBuffers(1, &d->uvs);
-    glCreateBuffers(1, &d->triangles);
-    glNamedBufferStorage(d->uvs, (GLsizeiptr)(count * d->sets * corners * sizeof *strongest),
-                         blended != NULL ? blended : strongest, 0);
-    glNamedBufferStorage(d->triangles, (GLsizeiptr)(count * sizeof *entries), entries, 0);
+    int code = gl_buffer_load("the light map", blended != NULL ? blended : strongest,
+                              count * d->sets * corners * sizeof *strongest, &d->uvs);
+    if (code == EXIT_DONE) {
+        code = gl_buffer_load("the light map", entries, count * sizeof *entries, &d->triangles);
+    }
     free(entries);
+    return code;
 }
 
 int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp_map map,
@@ -85,10 +87,7 @@ int gl_lightmap_create(const alp_scene *scene, const alp_lightmap *lightmap, alp
 {
     *d = (gl_lightmap){.equal = blend == ALP_BLEND_AVERAGE};
     const int code = load_pages(lightmap, map, d);
-    if (code == EXIT_DONE) {
-        load_triangles(scene, alp_lightmap_atlas(lightmap), d);
-    }
-    return code;
+    return code == EXIT_DONE ? load_triangles(scene, alp_lightmap_atlas(lightmap), d) : code;
 }
 
 void gl_lightmap_destroy(gl_lightmap *d)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl_lights.h"
 
+#include "gl_buffer.h"
 #include "light_views.h"
 #include "messages.h"
 #include "options/options.h"
@@ -71,13 +72,13 @@ static alp_light_info info_of_lamp(const alp_lamp *lamp)
 
 static alp_light_info info_of_sun(const alp_sun_options *sun)
 {
-    const double azimuth = (double)sun->azimuth, elevation = (double)sun->elevation;
-    alp_light_info light = {.kind = ALP_LIGHT_DIRECTIONAL,
-                            .intensity = sun->illuminance,
-                            .direction = {(float)(-sin(azimuth) * cos(elevation)),
-                                          (float)-sin(elevation),
-                                          (float)(-cos(azimuth) * cos(elevation))},
-                            .range = INFINITY};
+    double toward[3];
+    alp_light_info light = {
+        .kind = ALP_LIGHT_DIRECTIONAL, .intensity = sun->illuminance, .range = INFINITY};
+    sun_toward(sun, toward);
+    for (int k = 0; k < 3; k++) {
+        light.direction[k] = (float)-toward[k];
+    }
     memcpy(light.color, sun->color, sizeof light.color);
     return light;
 }
@@ -195,18 +196,8 @@ static shader_view pack_view(const gl_shadow_view *v)
     return s;
 }
 
-static GLuint load(const void *data, size_t size)
-{
-    static const float nothing[16];
-    GLuint buffer = 0;
-    glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, (GLsizeiptr)(size > 0 ? size : sizeof nothing),
-                         size > 0 ? data : nothing, 0);
-    return buffer;
-}
-
-static void load_lights(const alp_scene_info *info, const light_list *list, map_sides sides,
-                        gl_lights *d)
+static int load_lights(const alp_scene_info *info, const light_list *list, map_sides sides,
+                       gl_lights *d)
 {
     shader_light *lights = allocate_or_exit(NULL, list->count * sizeof *lights + 1);
     shader_view *views = allocate_or_exit(NULL, d->view_count * sizeof *views + 1);
@@ -226,10 +217,15 @@ static void load_lights(const alp_scene_info *info, const light_list *list, map_
         }
     }
     d->count = list->count;
-    d->lights = load(lights, list->count * sizeof *lights);
-    d->views = load(views, d->view_count * sizeof *views);
+    int code =
+        gl_buffer_load("the list of lights", lights, list->count * sizeof *lights, &d->lights);
+    if (code == EXIT_DONE) {
+        code = gl_buffer_load("the list of shadow maps", views, d->view_count * sizeof *views,
+                              &d->views);
+    }
     free(lights);
     free(views);
+    return code;
 }
 
 // --- the whole -----------------------------------------------------------------------------------
@@ -249,12 +245,8 @@ int gl_lights_create(const alp_scene *scene, const alp_lighting_options *lightin
         const uint32_t lamps = d->view_count - suns;
         sides.lamp = make_maps(&d->lamp_shadows, lamps, lamps > 0 ? LAMP_SIDE : 1);
     }
-    const bool made = sides.sun > 0 && sides.lamp > 0;
-    if (made) {
-        load_lights(&info, &list, sides, d);
-    }
     d->infos = list.lights;
-    return made ? EXIT_DONE : EXIT_FAILED;
+    return sides.sun > 0 && sides.lamp > 0 ? load_lights(&info, &list, sides, d) : EXIT_FAILED;
 }
 
 void gl_lights_destroy(gl_lights *d)

@@ -22,7 +22,7 @@ typedef struct gl_object {
 int gl_object_place(alp_context *context, const alp_render_object *what, uint32_t first_triangle,
                     gl_object *object);
 void gl_object_destroy(gl_object *object);
-/// What is drawn beside the scene, or NULL.
+/// The triangles that are drawn beside the scene, or NULL.
 const gl_scene *gl_object_drawn(const gl_object *object);
 /// Reads the field of a mode for the object, if it or the light has changed. To be called before
 /// gl_field_update of the mode's.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl_scene.h"
 
+#include "gl_buffer.h"
 #include "gl_textures.h"
 #include "messages.h"
 #include "options/options.h"
@@ -22,30 +23,19 @@ typedef struct shader_material {
 _Static_assert(sizeof(shader_material) == (4 + 4 + 2 + 2 + 1 + 5 + 2 + 40) * 4,
                "std430 has no holes here");
 
-enum { MATERIAL_DOUBLE_SIDED = 1, MATERIAL_EXISTS = 2, MATERIAL_NORMAL_MAP = 4 };
+_Static_assert(ALP_ALPHA_OPAQUE == ALPHA_OPAQUE && ALP_ALPHA_MASK == ALPHA_MASK &&
+                   ALP_ALPHA_BLEND == ALPHA_BLEND,
+               "shaders know the library's numbers");
 
 // --- geometry ------------------------------------------------------------------------------------
 
-/// Loads a buffer that shaders only read. Shaders always have an element to read.
-static int load_buffer(GLuint buffer, const void *data, size_t size)
+static int load_buffer(const void *data, size_t size, GLuint *buffer)
 {
-    static const float nothing[4];
-    GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    if (size > (size_t)most) {
-        char text[160];
-        snprintf(text, sizeof text,
-                 "the scene needs a buffer of %zu bytes, and the graphics card takes %lld", size,
-                 (long long)most);
-        return failure(text);
-    }
-    glNamedBufferStorage(buffer, (GLsizeiptr)(size > 0 ? size : sizeof nothing),
-                         size > 0 ? data : nothing, 0);
-    return EXIT_DONE;
+    return gl_buffer_load("the scene", data, size, buffer);
 }
 
 /// Slots in use, in a row. @param places out: place of each slot, or NO_SLOT
-static int load_uvs(const gl_scene *d, const alp_geometry *g, uint32_t places[ALP_UV_SETS])
+static int load_uvs(gl_scene *d, const alp_geometry *g, uint32_t places[ALP_UV_SETS])
 {
     const size_t slot_size = (size_t)g->vertex_count * sizeof *g->uvs[0];
     uint32_t used = 0;
@@ -58,13 +48,13 @@ static int load_uvs(const gl_scene *d, const alp_geometry *g, uint32_t places[AL
             memcpy(packed + places[i] * slot_size, g->uvs[i], slot_size);
         }
     }
-    const int code = load_buffer(d->buffers[BUFFER_UVS], packed, used * slot_size);
+    const int code = load_buffer(packed, used * slot_size, &d->buffers[BUFFER_UVS]);
     free(packed);
     return code;
 }
 
 /// Triangles that are not usable become points, which cover no pixel.
-static int load_triangles(const gl_scene *d, const alp_geometry *g)
+static int load_triangles(gl_scene *d, const alp_geometry *g)
 {
     const size_t size = (size_t)g->triangle_count * sizeof *g->triangles;
     uint32_t(*triangles)[3] = allocate_or_exit(NULL, size + 1);
@@ -73,7 +63,7 @@ static int load_triangles(const gl_scene *d, const alp_geometry *g)
             triangles[t][k] = g->triangles[t][g->triangle_usable[t] ? k : 0];
         }
     }
-    const int code = load_buffer(d->buffers[BUFFER_TRIANGLES], triangles, size);
+    const int code = load_buffer(triangles, size, &d->buffers[BUFFER_TRIANGLES]);
     free(triangles);
     return code;
 }
@@ -86,16 +76,14 @@ static int load_geometry(gl_scene *d, const alp_geometry *g, uint32_t places[ALP
     const size_t count = g->vertex_count;
     d->vertex_count = g->vertex_count;
     d->colored = g->colors != NULL;
-    glCreateVertexArrays(1, &d->array);
-    glCreateBuffers(GL_SCENE_BUFFERS, d->buffers);
     int code =
-        load_buffer(d->buffers[BUFFER_POSITIONS], g->positions, count * sizeof *g->positions);
+        load_buffer(g->positions, count * sizeof *g->positions, &d->buffers[BUFFER_POSITIONS]);
     if (code == EXIT_DONE) {
-        code = load_buffer(d->buffers[BUFFER_NORMALS], g->normals, count * sizeof *g->normals);
+        code = load_buffer(g->normals, count * sizeof *g->normals, &d->buffers[BUFFER_NORMALS]);
     }
     if (code == EXIT_DONE) {
-        code = load_buffer(d->buffers[BUFFER_COLORS], g->colors,
-                           d->colored ? count * sizeof *g->colors : 0);
+        code = load_buffer(g->colors, d->colored ? count * sizeof *g->colors : 0,
+                           &d->buffers[BUFFER_COLORS]);
     }
     code = code == EXIT_DONE ? load_uvs(d, g, places) : code;
     return code == EXIT_DONE ? load_triangles(d, g) : code;
@@ -109,8 +97,7 @@ static int load_tangents(gl_scene *d, const alp_scene *scene, const alp_geometry
         free(tangents);
         return failure("the scene has no tangents");
     }
-    glCreateBuffers(1, &d->tangents);
-    const int code = load_buffer(d->tangents, tangents, count * sizeof *tangents);
+    const int code = load_buffer(tangents, count * sizeof *tangents, &d->tangents);
     free(tangents);
     return code;
 }
@@ -198,7 +185,7 @@ static int load_materials(gl_scene *d, const alp_scene *scene, const alp_scene_i
         code = load_material(d, scene, i, places, &list[i]);
     }
     if (code == EXIT_DONE) {
-        code = load_buffer(d->buffers[BUFFER_MATERIALS], list, count * sizeof *list);
+        code = load_buffer(list, count * sizeof *list, &d->buffers[BUFFER_MATERIALS]);
     }
     free(list);
     return code;
@@ -212,6 +199,7 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
     const alp_geometry geometry = alp_scene_get_geometry(scene);
     const alp_scene_info info = alp_scene_get_info(scene);
     uint32_t places[ALP_UV_SETS];
+    glCreateVertexArrays(1, &d->array);
     gl_samplers_create(level_zero, d->samplers);
     d->white = gl_texture_white();
     int code = load_geometry(d, &geometry, places);
@@ -225,7 +213,7 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
 
 void gl_scene_destroy(gl_scene *d)
 {
-    if (d->array == 0) {
+    if (d->array == 0) { // there may be no context either
         return;
     }
     for (uint32_t i = 0; i < d->image_count && d->textures != NULL; i++) {

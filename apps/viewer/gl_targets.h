@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is drawn into: layers of surfaces, the picture in light, and the developed one.
+// Framebuffers: layers of surfaces, the picture in light, and the developed one.
 #ifndef VIEWER_GL_TARGETS_H
 #define VIEWER_GL_TARGETS_H
 

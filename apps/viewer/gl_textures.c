@@ -62,19 +62,27 @@ static GLsizei count_levels(uint32_t width, uint32_t height)
     return levels;
 }
 
+int gl_texture_check(const char *what, uint32_t width, uint32_t height)
+{
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (width <= (uint32_t)most && height <= (uint32_t)most) {
+        return EXIT_DONE;
+    }
+    char text[160];
+    snprintf(text, sizeof text, "%s has %u x %u pixels, and the graphics card takes %d", what,
+             width, height, most);
+    return failure(text);
+}
+
 int gl_texture_create(const alp_image *image, bool srgb, GLuint *texture)
 {
     const alp_image_info info = alp_image_get_info(image);
     const bool floats = info.component == ALP_COMPONENT_FLOAT;
     const GLsizei width = (GLsizei)info.width, height = (GLsizei)info.height;
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (width > most || height > most) {
-        char text[160];
-        snprintf(text, sizeof text,
-                 "an image of the scene has %d x %d pixels, and the graphics card takes %d", width,
-                 height, most);
-        return failure(text);
+    const int code = gl_texture_check("an image of the scene", info.width, info.height);
+    if (code != EXIT_DONE) {
+        return code;
     }
     const size_t size = (size_t)info.width * info.height * CHANNELS;
     void *pixels = allocate_or_exit(NULL, size * (floats ? sizeof(float) : 1));

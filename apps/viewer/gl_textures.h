@@ -9,6 +9,9 @@
 
 #include <stdbool.h>
 
+/// Refuses images that are larger than the card's textures. @param what the image, for the message
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int gl_texture_check(const char *what, uint32_t width, uint32_t height);
 /// Makes a texture of RGBA with mip levels. Grey becomes RGB, and missing alpha 1.
 /// @param srgb red, green and blue are decoded from sRGB, each texel before the filter
 /// @return EXIT_DONE, or EXIT_FAILED after a message

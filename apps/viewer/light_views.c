@@ -39,13 +39,12 @@ static void find_frame(const double forward[3], double right[3], double up[3])
     cross(right, forward, up);
 }
 
-static double diagonal_of(const alp_scene_info *info)
+void sun_toward(const alp_sun_options *sun, double toward[3])
 {
-    double sum = 0.0;
-    for (int k = 0; k < 3; k++) {
-        sum = hypot(sum, (double)info->bounds_max[k] - (double)info->bounds_min[k]);
-    }
-    return sum;
+    const double azimuth = (double)sun->azimuth, elevation = (double)sun->elevation;
+    toward[0] = sin(azimuth) * cos(elevation);
+    toward[1] = sin(elevation);
+    toward[2] = cos(azimuth) * cos(elevation);
 }
 
 /// A length with the border of the map.
@@ -76,7 +75,7 @@ static camera_view make_parallel_view(const alp_scene_info *info, const float di
     double right[3], up[3], z[2];
     find_frame(forward, right, up);
     find_ends(info, forward, z);
-    const double space = fmax(1e-3 * diagonal_of(info), 1e-30); // for what is moved
+    const double space = fmax(1e-3 * scene_diagonal(info), 1e-30); // for what is moved
     view.far_plane = (float)(z[1] - z[0] + 2.0 * space);
     for (int k = 0; k < 3; k++) {
         view.origin[k] =
@@ -91,7 +90,7 @@ static camera_view make_parallel_view(const alp_scene_info *info, const float di
 camera_view light_view_of_sun(const alp_scene_info *info, const float direction[3], uint32_t side)
 {
     const double forward[3] = {(double)direction[0], (double)direction[1], (double)direction[2]};
-    const double least = fmax(1e-6 * diagonal_of(info), 1e-30);
+    const double least = fmax(1e-6 * scene_diagonal(info), 1e-30);
     double axes[2][3], centre[2], half[2];
     find_frame(forward, axes[0], axes[1]);
     for (int a = 0; a < 2; a++) {
@@ -125,7 +124,7 @@ camera_view light_view_of_box(const alp_scene_info *info, const float direction[
 camera_view light_view_of_lamp(const alp_scene_info *info, const float position[3],
                                const double forward[3], double tangent, uint32_t side)
 {
-    camera_view view = {.near_plane = (float)fmax(NEAR_SHARE * diagonal_of(info), 1e-30),
+    camera_view view = {.near_plane = (float)fmax(NEAR_SHARE * scene_diagonal(info), 1e-30),
                         .width = side,
                         .height = side};
     double right[3], up[3];
@@ -147,7 +146,7 @@ light_cone light_cone_of(const alp_scene_info *info, const alp_light_info *lamp)
         const double middle = 0.5 * ((double)info->bounds_min[k] + (double)info->bounds_max[k]);
         way[k] = middle - (double)lamp->position[k];
     }
-    const double distance = sqrt(dot(way, way)), radius = 0.5 * diagonal_of(info);
+    const double distance = sqrt(dot(way, way)), radius = 0.5 * scene_diagonal(info);
     if (distance > radius) {
         cone.outer = asin(fmax(radius / distance, 1e-6));
     }

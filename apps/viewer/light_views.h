@@ -6,7 +6,12 @@
 
 #include "camera_view.h"
 
+#include <alpenglow/light.h>
+
 enum { LIGHT_FACES = 6 };
+
+/// Unit, from the scene to the sun.
+void sun_toward(const alp_sun_options *sun, double toward[3]);
 
 /// A parallel view of the whole scene.
 /// @param direction unit, along which the light travels   @param side of the map, texels

@@ -25,7 +25,7 @@ static int prepare_volume(session *s, const command_line *a, alp_render_options 
         code = result == ALP_OK ? code : session_end(s, result);
     }
     if (code == EXIT_DONE) {
-        gl_field_create(s->scene, READ_PIXEL, 1, 1, &light->field);
+        code = gl_field_create(s->scene, READ_PIXEL, 1, 1, &light->field);
         gl_field_set_volume(&light->field, &light->lpv->volume, a->values[OPTION_GLOSS].given);
         light->scattering = (float)a->values[OPTION_MEDIA].real;
     }
@@ -38,10 +38,10 @@ int mode_field_prepare(session *s, const command_line *a, alp_render_options *o,
     if (field.model == FIELD_LPV && a->values[OPTION_READ].choice == READ_PIXEL) {
         return prepare_volume(s, a, o, light);
     }
-    const int code = make_field(s, a, field, o, &light->source);
+    int code = make_field(s, a, field, o, &light->source);
     if (code == EXIT_DONE) {
-        gl_field_create(s->scene, a->values[OPTION_READ].choice, o->width, o->height,
-                        &light->field);
+        code = gl_field_create(s->scene, a->values[OPTION_READ].choice, o->width, o->height,
+                               &light->field);
         light->field.workers = alp_context_worker_count(s->context);
         gl_field_set(&light->field, light->source.field);
     }

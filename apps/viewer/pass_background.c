@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pass_background.h"
 
-#include "gl_program.h"
+#include "gl_buffer.h"
+#include "gl_textures.h"
+#include "light_views.h"
 #include "messages.h"
 #include "options/options.h"
 #include "shader_list.h"
@@ -55,6 +57,9 @@ static int load_sky(alp_context *context, const alp_lighting_options *lighting,
         o.sky.turn = 0.0f; // texels of the texture are those of the image
     }
     const uint32_t height = width / 2;
+    if (gl_texture_check("the image of the sky", width, height) != EXIT_DONE) {
+        return EXIT_FAILED;
+    }
     float(*texels)[3] = allocate_or_exit(NULL, (size_t)width * height * sizeof *texels);
     const alp_result result = fill_sky(context, &o, width, height, texels);
     if (result == ALP_OK) {
@@ -118,9 +123,8 @@ static GLuint list_suns(const alp_scene *scene, const alp_lighting_options *o, s
     const uint32_t lights = alp_scene_get_info(scene).lights;
     GLuint count = 0;
     if (s->illuminance > 0.0f && (double)s->size >= LEAST_SUN_SIZE) {
-        const double azimuth = (double)s->azimuth, elevation = (double)s->elevation;
-        const double toward[3] = {sin(azimuth) * cos(elevation), sin(elevation),
-                                  cos(azimuth) * cos(elevation)};
+        double toward[3];
+        sun_toward(s, toward);
         suns[count++] = make_sun(toward, (double)s->illuminance, s->color, (double)s->size);
     }
     for (uint32_t i = 0; i < lights; i++) {
@@ -135,19 +139,16 @@ static GLuint list_suns(const alp_scene *scene, const alp_lighting_options *o, s
     return count;
 }
 
-static void load_suns(const alp_scene *scene, const alp_lighting_options *lighting,
-                      pass_background *pass)
+static int load_suns(const alp_scene *scene, const alp_lighting_options *lighting,
+                     pass_background *pass)
 {
     const size_t most = (size_t)alp_scene_get_info(scene).lights + 1;
     shader_sun *suns = allocate_or_exit(NULL, most * sizeof *suns);
     pass->sun_count = lighting != NULL ? list_suns(scene, lighting, suns) : 0;
-    glCreateBuffers(1, &pass->suns);
-    glNamedBufferStorage(pass->suns, (GLsizeiptr)(most * sizeof *suns), NULL,
-                         GL_DYNAMIC_STORAGE_BIT);
-    if (pass->sun_count > 0) {
-        glNamedBufferSubData(pass->suns, 0, (GLsizeiptr)(pass->sun_count * sizeof *suns), suns);
-    }
+    const int code =
+        gl_buffer_load("the list of suns", suns, pass->sun_count * sizeof *suns, &pass->suns);
     free(suns);
+    return code;
 }
 
 // --- the pass ------------------------------------------------------------------------------------
@@ -155,11 +156,9 @@ static void load_suns(const alp_scene *scene, const alp_lighting_options *lighti
 int pass_background_create(alp_context *context, const alp_scene *scene,
                            const alp_lighting_options *lighting, pass_background *pass)
 {
-    *pass = (pass_background){.program =
-                                  gl_program_create(&shader_screen_vert, &shader_background_frag)};
-    glCreateVertexArrays(1, &pass->array);
-    load_suns(scene, lighting, pass);
-    if (pass->program == 0) {
+    *pass = (pass_background){0};
+    if (screen_pass_create(&shader_background_frag, &pass->screen) != EXIT_DONE ||
+        load_suns(scene, lighting, pass) != EXIT_DONE) {
         return EXIT_FAILED;
     }
     return lighting != NULL ? set_sky(context, lighting, pass) : EXIT_DONE;
@@ -167,22 +166,18 @@ int pass_background_create(alp_context *context, const alp_scene *scene,
 
 void pass_background_destroy(pass_background *pass)
 {
-    if (pass->array != 0) {
-        glDeleteProgram(pass->program);
-        glDeleteVertexArrays(1, &pass->array);
+    if (pass->screen.array != 0) {
         glDeleteTextures(1, &pass->sky);
         glDeleteBuffers(1, &pass->suns);
     }
+    screen_pass_destroy(&pass->screen);
     *pass = (pass_background){0};
 }
 
 void pass_background_draw(const pass_background *pass, const camera_view *view, const gl_targets *t,
                           GLuint left)
 {
-    gl_targets_bind(t, t->light_frame);
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(pass->program);
-    glBindVertexArray(pass->array);
+    screen_pass_bind(&pass->screen, t, t->light_frame);
     camera_view_bind(view);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BUFFER_SUNS, pass->suns);
     glBindTextureUnit(TEXTURE_PICTURE, t->sum);
@@ -193,5 +188,5 @@ void pass_background_draw(const pass_background *pass, const camera_view *view, 
     glUniform3fv(UNIFORM_SKY_DOWN, 1, pass->down);
     glUniform1f(UNIFORM_SKY_TURN, pass->turn);
     glUniform1ui(UNIFORM_SUN_COUNT, pass->sun_count);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    screen_pass_draw();
 }

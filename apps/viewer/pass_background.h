@@ -4,12 +4,12 @@
 #define VIEWER_PASS_BACKGROUND_H
 
 #include "camera_view.h"
-#include "gl_targets.h"
+#include "screen_pass.h"
 
 #include <alpenglow/light.h>
 
 typedef struct pass_background {
-    GLuint program, array;
+    screen_pass screen;
     GLuint sky;  // texture of SKY_IMAGE
     GLuint suns; // BUFFER_SUNS
     GLuint sun_count;

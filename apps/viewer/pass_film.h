@@ -4,12 +4,12 @@
 #ifndef VIEWER_PASS_FILM_H
 #define VIEWER_PASS_FILM_H
 
-#include "gl_targets.h"
+#include "screen_pass.h"
 
 #include <alpenglow/film.h>
 
 typedef struct pass_film {
-    GLuint program, array;
+    screen_pass screen;
 } pass_film;
 
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_film_destroy in both cases

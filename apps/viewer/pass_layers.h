@@ -5,10 +5,10 @@
 #ifndef VIEWER_PASS_LAYERS_H
 #define VIEWER_PASS_LAYERS_H
 
-#include "gl_targets.h"
+#include "screen_pass.h"
 
 typedef struct pass_layers {
-    GLuint program, array;
+    screen_pass screen;
 } pass_layers;
 
 /// @return EXIT_DONE, or EXIT_FAILED after a message; pass_layers_destroy in both cases

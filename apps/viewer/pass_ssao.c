@@ -25,44 +25,38 @@ int pass_ssao_create(const gl_targets *t, bool panes, float radius, pass_ssao *p
 {
     static const view_mode modes[2] = {{.fragment = &shader_ssao_places_frag},
                                        {.fragment = &shader_ssao_places_frag, .uses = USES_PANES}};
-    *pass = (pass_ssao){.radius = radius,
-                        .program = gl_program_create(&shader_screen_vert, &shader_ssao_frag),
-                        .blur = gl_program_create(&shader_screen_vert, &shader_ssao_blur_frag)};
-    glCreateVertexArrays(1, &pass->array);
+    *pass = (pass_ssao){.radius = radius};
     pass->seen = make_texture(GL_RGBA32F, t);
     pass->noisy = make_texture(GL_R32F, t);
     pass->share = make_texture(GL_R32F, t);
     pass->noisy_frame = make_frame(pass->noisy);
     pass->frame = make_frame(pass->share);
-    const int code = pass_surfaces_create(&modes[panes ? 1 : 0], false, &pass->places);
-    return code == EXIT_DONE && pass->program != 0 && pass->blur != 0 ? EXIT_DONE : EXIT_FAILED;
+    int code = pass_surfaces_create(&modes[panes ? 1 : 0], false, &pass->places);
+    code = code == EXIT_DONE ? screen_pass_create(&shader_ssao_frag, &pass->occlude) : code;
+    return code == EXIT_DONE ? screen_pass_create(&shader_ssao_blur_frag, &pass->blur) : code;
 }
 
 void pass_ssao_destroy(pass_ssao *pass)
 {
-    if (pass->array != 0) {
-        glDeleteProgram(pass->program);
-        glDeleteProgram(pass->blur);
-        glDeleteVertexArrays(1, &pass->array);
+    if (pass->seen != 0) {
         glDeleteTextures(3, (const GLuint[]){pass->seen, pass->noisy, pass->share});
         glDeleteFramebuffers(2, (const GLuint[]){pass->noisy_frame, pass->frame});
     }
+    screen_pass_destroy(&pass->occlude);
+    screen_pass_destroy(&pass->blur);
     pass_surfaces_destroy(&pass->places);
     *pass = (pass_ssao){0};
 }
 
-static void fill(const pass_ssao *pass, GLuint program, GLuint frame, const camera_view *view,
-                 const gl_targets *t)
+static void fill(const pass_ssao *pass, const screen_pass *step, GLuint frame,
+                 const camera_view *view, const gl_targets *t)
 {
-    gl_targets_bind(t, frame);
-    glDisable(GL_DEPTH_TEST);
-    glUseProgram(program);
-    glBindVertexArray(pass->array);
+    screen_pass_bind(step, t, frame);
     camera_view_bind(view);
     glUniform1f(UNIFORM_SSAO_RADIUS, pass->radius);
     glBindTextureUnit(TEXTURE_PICTURE, pass->seen);
     glBindTextureUnit(TEXTURE_SSAO, pass->noisy);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    screen_pass_draw();
 }
 
 void pass_ssao_draw(const pass_ssao *pass, const gl_scene *scene, const camera_view *view,
@@ -71,6 +65,6 @@ void pass_ssao_draw(const pass_ssao *pass, const gl_scene *scene, const camera_v
     pass_surfaces_draw_opaque(&pass->places, scene, NULL, view, t);
     glCopyImageSubData(t->opaque_light, GL_TEXTURE_2D, 0, 0, 0, 0, pass->seen, GL_TEXTURE_2D, 0, 0,
                        0, 0, (GLsizei)t->width, (GLsizei)t->height, 1);
-    fill(pass, pass->program, pass->noisy_frame, view, t);
-    fill(pass, pass->blur, pass->frame, view, t);
+    fill(pass, &pass->occlude, pass->noisy_frame, view, t);
+    fill(pass, &pass->blur, pass->frame, view, t);
 }

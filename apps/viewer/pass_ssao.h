@@ -8,10 +8,11 @@
 #define VIEWER_PASS_SSAO_H
 
 #include "pass_surfaces.h"
+#include "screen_pass.h"
 
 typedef struct pass_ssao {
     pass_surfaces places;
-    GLuint program, blur, array;
+    screen_pass occlude, blur;
     GLuint seen;         // RGBA32F: normal of the nearest opaque triangle, and its distance
     GLuint noisy, share; // R32F: share that is open, before and after the blur
     GLuint noisy_frame, frame;

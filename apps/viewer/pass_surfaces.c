@@ -35,7 +35,7 @@ static void clear(GLuint frame)
     glClearNamedFramebufferfv(frame, GL_DEPTH, 0, &far);
 }
 
-/// What is the same for all surfaces.
+/// Binds the part that all surfaces share.
 static void bind(const pass_surfaces *pass, const gl_scene *scene, const mode_light *light,
                  const camera_view *view)
 {

@@ -8,7 +8,7 @@
 #include <alpenglow/image.h>
 #include <alpenglow/scene.h>
 
-/// What a picture was made with.
+/// Sources of the texts of a picture.
 typedef struct picture_facts {
     const command_line *arguments;
     const alp_scene *scene;

@@ -38,7 +38,7 @@ static alp_result develop(flight_job *job, double seconds, alp_image **developed
     return result;
 }
 
-/// Brings the light to a moment of the flight.
+/// Updates the light for a time of the flight.
 static int move_light(view_job *view, const view_mode *mode, drawing *d, double time,
                       const alp_camera *camera)
 {
@@ -53,7 +53,7 @@ static int move_light(view_job *view, const view_mode *mode, drawing *d, double 
     return code;
 }
 
-/// Brings the object to a moment of the flight.
+/// Moves the object to its place at a time of the flight.
 static int move_object(const view_job *view, drawing *d, double time)
 {
     float position[3];

@@ -27,28 +27,29 @@ typedef struct mode_light {
 
 /// Options that a mode reads.
 typedef enum mode_use {
-    USES_METALS = 1,
-    USES_BACKGROUND = 2, // sky and suns, which are seen behind the surfaces
-    USES_LIGHTS = 4,     // lamps
-    USES_BOUNCES = 8,
-    USES_ATLAS = 16,
-    USES_SEED = 32,
-    USES_SWITCH = 64, // --direct
-    USES_FIELD = 128,
-    USES_PROBES = 256,
-    USES_NORMALS = 512, // normal maps
-    USES_LAYOUT = 1024, // --atlas
-    USES_TEXELS = 2048, // rays of texels
-    USES_OCCLUSION = 4096,
-    USES_SSAO = 8192,
-    USES_OBJECT = 131072, // --object
-    USES_PATHS = 16384,   // --samples; paths make the picture, and nothing is drawn
+    USES_METALS = 1u << 0,
+    USES_BACKGROUND = 1u << 1, // sky and suns, which are seen behind the surfaces
+    USES_LIGHTS = 1u << 2,     // lamps
+    USES_BOUNCES = 1u << 3,
+    USES_ATLAS = 1u << 4,
+    USES_SEED = 1u << 5,
+    USES_SWITCH = 1u << 6, // --direct
+    USES_FIELD = 1u << 7,
+    USES_PROBES = 1u << 8,
+    USES_NORMALS = 1u << 9, // normal maps
+    USES_LAYOUT = 1u << 10, // --atlas
+    USES_TEXELS = 1u << 11, // rays of texels
+    USES_OCCLUSION = 1u << 12,
+    USES_SSAO = 1u << 13,
+    USES_OBJECT = 1u << 14, // --object
+    USES_PATHS = 1u << 15,  // --samples; paths make the picture, and nothing is drawn
     // Not options.
-    USES_PANES = 32768, // light goes through panes
-    USES_DIRECT = 65536 // light comes straight from lamps and suns
+    USES_PANES = 1u << 16, // light goes through panes
+    USES_DIRECT = 1u << 17 // light comes straight from lamps and suns
 } mode_use;
 
 typedef struct view_mode {
+    const char *name; // of --with
     const gl_shader *fragment;
     unsigned uses;            // of mode_use
     alp_render_method method; // of render, whose film the picture has
@@ -60,7 +61,7 @@ typedef struct view_mode {
                    mode_light *light);
     /// Binds it, and sets the uniforms of the current program, which is given. NULL: there is none.
     void (*bind)(const mode_light *light, GLuint program);
-    /// Brings the light to a moment of a flight. NULL: it stands still.
+    /// Updates the light for a time of a flight. NULL: it stands still.
     /// @return EXIT_DONE, or an exit code after a message
     int (*move)(session *s, double time, const alp_camera *camera, mode_light *light);
 } view_mode;

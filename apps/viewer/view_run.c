@@ -10,7 +10,6 @@
 #include "view_capture.h"
 #include "view_job.h"
 
-#include <math.h>
 #include <stdio.h>
 
 void view_print_done(const view_job *job, const char *what, double draw_seconds)
@@ -50,12 +49,8 @@ static const double SSAO_SHARE = 0.05;
 static float ssao_radius(const session *s, const command_line *a)
 {
     const alp_scene_info info = alp_scene_get_info(s->scene);
-    double diagonal = 0.0;
-    for (int k = 0; k < 3; k++) {
-        diagonal = hypot(diagonal, (double)info.bounds_max[k] - (double)info.bounds_min[k]);
-    }
     return a->values[OPTION_SSAO].choice == 0          ? 0.0f
-           : a->values[OPTION_SSAO_RADIUS].choice >= 0 ? (float)(SSAO_SHARE * diagonal)
+           : a->values[OPTION_SSAO_RADIUS].choice >= 0 ? (float)(SSAO_SHARE * scene_diagonal(&info))
                                                        : (float)a->values[OPTION_SSAO_RADIUS].real;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host draws of a scene: triangles, materials and images, as arrays and plain values.
+// A scene as a host draws it: triangles, materials and images, as arrays and plain values.
 #ifndef ALPENGLOW_GEOMETRY_H
 #define ALPENGLOW_GEOMETRY_H
 
@@ -29,7 +29,7 @@ typedef struct alp_geometry {
 /// @param scene NULL gives zeros
 ALP_API alp_geometry alp_scene_get_geometry(const alp_scene *scene);
 
-/// What a texture shows beyond [0, 1].
+/// How a texture continues beyond [0, 1].
 typedef enum alp_wrap {
     ALP_WRAP_REPEAT = 0,
     ALP_WRAP_CLAMP = 1, ///< to the edge

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host draws of a scene: its arrays, materials and images.
+// A scene as a host draws it: its arrays, materials and images.
 #include "scene/scene.h"
 
 #include <alpenglow/geometry.h>

@@ -1,5 +1,5 @@
 #version 450 core
-// What lies behind the surfaces, sky and disks of suns, and the alpha of the picture.
+// Sky and disks of suns behind the surfaces, and the alpha of the picture.
 #include "camera.glsl"
 #include "shared_constants.h"
 

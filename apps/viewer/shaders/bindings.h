@@ -22,6 +22,11 @@
 #define BUFFER_SUNS 0            // of pass_background: sun [sun]
 #define BUFFER_SH_PARTS 0        // of gl_cube: float [part][9][3]
 #define BUFFER_SH 1              // of gl_cube: float [9][3]
+#define BUFFERS 14               // bindings in use
+
+// Storage blocks of the shaders that have most of them.
+#define BLOCKS_VERTEX 9   // surfaces.vert
+#define BLOCKS_FRAGMENT 6 // field.frag and ambient.frag
 
 // Textures of a material.
 #define TEXTURE_BASE_COLOR 0
@@ -53,7 +58,7 @@
 #define UNIFORM_NEAR 4     // float, metres; of a parallel view 1 / the far plane
 #define UNIFORM_SIZE 5     // vec2, pixels
 #define UNIFORM_PARALLEL 6 // bool, whether rays are parallel
-// Of pass_surfaces.
+// Uniforms of pass_surfaces.
 #define UNIFORM_MATERIAL 8    // uint
 #define UNIFORM_VERTICES 9    // uint, vertices of the scene
 #define UNIFORM_COLORED 10    // bool, whether vertices have colours
@@ -69,18 +74,18 @@
 #define UNIFORM_MAP_PAGES 22  // uint, pages of a map of one value a texel
 #define UNIFORM_FIRST_TRIANGLE 23 // uint, number of triangle 0 in pictures of triangles
 #define UNIFORM_SSAO 48           // bool, whether TEXTURE_SSAO counts
-// Of pass_maps.
+// Uniforms of pass_maps.
 #define UNIFORM_MAP_LIGHT 30 // uint, of BUFFER_LIGHTS
 #define MAP_NO_LIGHT 0xffffffffu
-// Of pass_background.
+// Uniforms of pass_background.
 #define UNIFORM_SKY_KIND 8   // int, SKY_...
 #define UNIFORM_SKY_UP 9     // vec3, radiance
 #define UNIFORM_SKY_DOWN 10  // vec3, radiance
 #define UNIFORM_SKY_TURN 11  // float, turns of the whole circle
 #define UNIFORM_SUN_COUNT 12 // uint
-// Of pass_ssao.
+// Uniforms of pass_ssao.
 #define UNIFORM_SSAO_RADIUS 8 // float, metres
-// Of pass_film.
+// Uniforms of pass_film.
 #define UNIFORM_GAIN 8     // float, 2^exposure
 #define UNIFORM_TONE 9     // int, an alp_tone
 #define UNIFORM_WHITE 10   // float, the L that becomes white
@@ -108,6 +113,16 @@
 #define READ_OBJECT 2 // in BUFFER_FIELD_OBJECTS
 #define READ_PROBES 3 // at pixels too, from the textures of probes
 #define READ_LPV 4    // at pixels too, from the volume on the card
+
+// Flags of a material.
+#define MATERIAL_DOUBLE_SIDED 1u
+#define MATERIAL_EXISTS 2u
+#define MATERIAL_NORMAL_MAP 4u
+
+// Kinds of alpha, numbered as alp_alpha_mode.
+#define ALPHA_OPAQUE 0u
+#define ALPHA_MASK 1u
+#define ALPHA_BLEND 2u
 
 // Slots of texture coordinates: no such slot.
 #define NO_SLOT 255u

@@ -27,17 +27,17 @@
 #define UNIFORM_LPV_OPACITY 67  // float, factor on blockers
 #define UNIFORM_LPV_BY_ANGLE 68 // bool, whether blockers of one orientation stop light by its angle
 #define UNIFORM_LPV_CASCADES 69 // int
-// Of one pass.
+// Uniforms of one pass.
 #define UNIFORM_LPV_UNITS 70    // vec3, of the channels, W/sr
 #define UNIFORM_LPV_BLOCKED 71  // bool, whether blockers stop light
 #define UNIFORM_LPV_REFLECTS 72 // bool, whether they reflect it
 #define UNIFORM_LPV_ONLY 73     // bool, whether a map is for its own grid alone
-// Of passes that know where the grids are: lpv_cascades.glsl.
+// Uniforms of passes that know where the grids are: lpv_cascades.glsl.
 #define UNIFORM_LPV_CELL 74    // float, metres of the finest cell
 #define UNIFORM_LPV_MAP 75     // int, the cascade of the map; -1: of all
 #define UNIFORM_LPV_CORNERS 76 // vec3 [LPV_CASCADES_MOST], cells from the origin
 #define UNIFORM_LPV_CENTRES 84 // vec3 [LPV_CASCADES_MOST], metres, before they are rounded
-// Of surfaces and air that read a volume.
+// Uniforms of surfaces and air that read a volume.
 #define UNIFORM_LPV_GLOSS 92      // bool, whether surfaces mirror its light
 #define UNIFORM_AIR_SCATTERING 93 // float, 1/metre
 #define UNIFORM_AIR_LOW 94        // vec3, metres, bounds of the scene

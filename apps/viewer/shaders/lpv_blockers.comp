@@ -24,7 +24,7 @@ void main()
     }
     int first = max(map_cascade, 0), last = only ? first : cascades - 1;
     for (int c = first; c <= last; c++) {
-        place p;
+        grid_place p;
         bool small = position.a > 0.0 && 2.0 * position.a < cell_of(c);
         if (small || !find_place(c, position.xyz, normal.xyz, true, p)) {
             continue;

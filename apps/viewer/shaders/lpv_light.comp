@@ -22,7 +22,7 @@ void main()
         return;
     }
     for (int c = max(map_cascade, 0); c < cascades; c++) {
-        place p;
+        grid_place p;
         bool small = position.a > 0.0 && 2.0 * position.a < cell_of(c);
         if (small || !find_place(c, position.xyz, normal.xyz, false, p)) {
             continue;

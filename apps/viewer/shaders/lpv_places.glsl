@@ -9,7 +9,7 @@ layout(binding = 3) uniform sampler2D map_albedos;
 layout(location = UNIFORM_LPV_MAP) uniform int map_cascade; // whose map it is, -1: of all
 
 /// A place among the eight cells, or nodes, from `low` on.
-struct place {
+struct grid_place {
     ivec3 low;
     vec3 part; // of the upper ones
 };
@@ -46,7 +46,7 @@ vec3 upper_part(vec3 part, vec3 normal)
 
 /// @param blocks into nodes, which lie at the corners of cells; else into cells
 /// @return false outside of the grid
-bool find_place(int cascade, vec3 position, vec3 normal, bool blocks, out place p)
+bool find_place(int cascade, vec3 position, vec3 normal, bool blocks, out grid_place p)
 {
     vec3 beyond = ALP_LPV_BEYOND * normal;
     vec3 at = position / cell_of(cascade) - corners[cascade] +
@@ -68,7 +68,7 @@ bool find_place(int cascade, vec3 position, vec3 normal, bool blocks, out place 
 }
 
 /// Corner `number` of a place, and the share of the surfel that goes there.
-ivec3 corner_of(place p, int number, out float share)
+ivec3 corner_of(grid_place p, int number, out float share)
 {
     ivec3 upper = ivec3(number, number >> 1, number >> 2) & 1;
     vec3 shares = mix(1.0 - p.part, p.part, equal(upper, ivec3(1)));

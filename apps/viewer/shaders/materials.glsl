@@ -1,14 +1,12 @@
 // Materials as alp_scene_get_material states them.
 #include "bindings.h"
 
-const uint ALPHA_OPAQUE = 0u, ALPHA_MASK = 1u, ALPHA_BLEND = 2u;
-
 struct material {
     vec4 base_color;
     vec4 emission;     // rgb; a: alpha cutoff
     float metallic, transmission;
-    uint alpha_mode;
-    uint flags;        // 1: double-sided, 2: is a material, 4: has a normal map
+    uint alpha_mode;   // ALPHA_...
+    uint flags;        // MATERIAL_...
     float normal_scale;
     uint slots[TEXTURE_USES]; // of TEXTURE_...: slot in use, or NO_SLOT
     uint unused[2];

@@ -17,7 +17,7 @@ vec3 map_normal(vec3 n)
     material m = materials[material_index];
     vec3 t = vertex_tangent.xyz - dot(vertex_tangent.xyz, n) * n;
     float size = dot(t, t);
-    if ((m.flags & 4u) == 0u || size <= 1e-12) {
+    if ((m.flags & MATERIAL_NORMAL_MAP) == 0u || size <= 1e-12) {
         return n;
     }
     t *= inversesqrt(size);

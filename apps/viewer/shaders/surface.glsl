@@ -49,7 +49,7 @@ float metalness()
 
 vec3 albedo_of(vec4 color)
 {
-    if ((materials[material_index].flags & 2u) == 0u) {
+    if ((materials[material_index].flags & MATERIAL_EXISTS) == 0u) {
         return vec3(ALP_ALBEDO_WITHOUT_MATERIAL);
     }
     return clamp(color.rgb * (metals_black ? 1.0 - metalness() : 1.0), 0.0, ALP_ALBEDO_LIMIT);
@@ -105,7 +105,7 @@ surface read_surface(bool panes)
     if (panes) {
         add_pane(covered, color.rgb, s);
     }
-    s.dark = !gl_FrontFacing && (m.flags & 1u) == 0u;
+    s.dark = !gl_FrontFacing && (m.flags & MATERIAL_DOUBLE_SIDED) == 0u;
     picture_triangle = first_triangle + triangle_index;
     picture_through = vec4(s.through, 1.0);
     return s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What probes tell a host: counts, states, places and light.
+// Values of probes for a host: counts, states, places and light.
 #include "fields/probes/probes.h"
 
 alp_probes_info alp_probes_get_info(const alp_probes *probes)

@@ -20,7 +20,7 @@ typedef struct test_pair {
     alp_image *drawn, *rendered;             // 8-bit RGB
     alp_image *drawn_light, *rendered_light; // float RGBA
     uint32_t width, height;
-    /// [height][width] Both see the same triangles in the 3 × 3 pixels around. Of FIELD also: the
+    /// [height][width] Both see the same triangles in the 3 × 3 pixels around. With FIELD also: the
     /// same lights reach these pixels by rays, so that no edge of a shadow is near.
     bool *alike;
     double alike_share;

@@ -2,6 +2,7 @@
 // Fields of the viewer, by the places where they are read, against those of render.
 #include "test_gl.h"
 
+#include "options/options.h"
 #include "scene/scene.h"
 #include "shaders/bindings.h"
 
@@ -31,7 +32,7 @@ static void check(const alp_scene *scene, const alp_field *field, GLint read)
 {
     const alp_render_options o = small_picture(field);
     mode_light light = {0};
-    gl_field_create(scene, read, o.width, o.height, &light.field);
+    assert_int_equal(gl_field_create(scene, read, o.width, o.height, &light.field), EXIT_DONE);
     light.field.workers = 2;
     gl_field_set(&light.field, field);
     compare(scene, &o, light);
@@ -46,7 +47,8 @@ static void check_probes(const alp_scene *scene, const alp_probes *probes)
               alp_field_create_probes(probes, ALP_LOOKUP_OURS, info.origin, NULL, &field));
     const alp_render_options o = small_picture(field);
     mode_light light = {0};
-    gl_field_create(scene, READ_PIXEL, o.width, o.height, &light.field);
+    assert_int_equal(gl_field_create(scene, READ_PIXEL, o.width, o.height, &light.field),
+                     EXIT_DONE);
     gl_field_set_probes(&light.field, probes, info.origin);
     assert_int_equal(light.field.read, READ_PROBES);
     compare(scene, &o, light);

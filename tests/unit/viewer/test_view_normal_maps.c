@@ -132,7 +132,7 @@ static void check(const alp_scene *scene, const alp_field *field, GLint read)
         const bool maps = i < 2;
         mode_light light = {0};
         float normal[3], expected[3], rgb[3];
-        gl_field_create(scene, read, SIDE, SIDE, &light.field);
+        assert_int_equal(gl_field_create(scene, read, SIDE, SIDE, &light.field), EXIT_DONE);
         gl_field_set(&light.field, field);
         draw(scene, light, test_gl_mode("probes"), z, maps, rgb);
         find_normal(z, maps, normal);

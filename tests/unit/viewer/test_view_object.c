@@ -2,6 +2,7 @@
 // The object of the viewer: as render shows it, as a part of the scene, and where it has moved.
 #include "test_gl.h"
 
+#include "options/options.h"
 #include "picture.h"
 #include "scene/builtin/mesh_builder.h"
 #include "scene/scene.h"
@@ -48,7 +49,7 @@ static void check_field(const char *name, const alp_scene *scene, const alp_rend
                         GLint read)
 {
     mode_light light = {0};
-    gl_field_create(scene, read, o->width, o->height, &light.field);
+    assert_int_equal(gl_field_create(scene, read, o->width, o->height, &light.field), EXIT_DONE);
     light.field.workers = 2;
     gl_field_set(&light.field, o->field);
     test_pair pair = test_gl_pair_in("probes", light, scene, o);
@@ -76,7 +77,7 @@ TEST_WITH_CONTEXT(an_object_reads_probes_as_in_render, 2)
     check_field("sphere at pixels", scene, &sphere, READ_PIXEL);
     check_field("teapot at pixels", scene, &teapot, READ_PIXEL);
     mode_light light = {0};
-    gl_field_create(scene, READ_PIXEL, WIDTH, HEIGHT, &light.field);
+    assert_int_equal(gl_field_create(scene, READ_PIXEL, WIDTH, HEIGHT, &light.field), EXIT_DONE);
     gl_field_set_probes(&light.field, probes, info.origin);
     test_pair pair = test_gl_pair_in("probes", light, scene, &teapot);
     compare_object("teapot in the shader", &pair);
@@ -158,7 +159,7 @@ static alp_scene *build_room(alp_context *context, bool whole)
     return scene;
 }
 
-/// What is drawn of a room.
+/// A picture of a room.
 typedef struct room_view {
     const char *mode;
     const alp_field *field; // of probes
@@ -193,7 +194,7 @@ static mode_light make_light(const alp_scene *scene, const room_view *v)
         assert_int_equal(code, EXIT_DONE);
     }
     if (v->volume || v->field != NULL) {
-        gl_field_create(scene, v->read, WIDTH, HEIGHT, &light.field);
+        assert_int_equal(gl_field_create(scene, v->read, WIDTH, HEIGHT, &light.field), EXIT_DONE);
         light.field.workers = 2;
     }
     if (v->volume) {

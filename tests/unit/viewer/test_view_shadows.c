@@ -12,7 +12,7 @@
 
 enum { STRIPS = 6, WIDTH = 10 * STRIPS, HEIGHT = 10 };
 
-/// What is over each strip of the floor.
+/// The cover of each strip of the floor.
 typedef struct strip {
     const char *material;
     bool shadow;
@@ -132,7 +132,7 @@ TEST_WITH_CONTEXT(holes_and_clear_panes_cast_no_shadow_of_suns, 1)
     alp_scene_destroy(scene);
 }
 
-/// Of 50 candela 9 m above the floor, over its middle: I cos^3 / h^2, with y = 0.05.
+/// Irradiance of 50 candela 9 m above the floor, over its middle: I cos^3 / h^2, with y = 0.05.
 static double of_lamp(double x)
 {
     const double aside = x - 0.5 * STRIPS, distance2 = 81.0 + aside * aside + 0.05 * 0.05;

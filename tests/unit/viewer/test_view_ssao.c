@@ -11,7 +11,7 @@
 
 enum { WIDTH = 480, HEIGHT = 360, PIXELS = WIDTH * HEIGHT };
 
-/// What the pass finds.
+/// Results of the pass.
 typedef struct found {
     float share[PIXELS];
     float seen[PIXELS][4]; // normal, and distance
