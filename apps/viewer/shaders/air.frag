@@ -29,16 +29,29 @@ vec3 lamp_fluence(vec3 position)
     return sum;
 }
 
+/// Clips a part of the ray to the bounds of the scene.
+/// @param way unit   @param span begin and end, metres
+vec2 clip(vec3 way, vec2 span)
+{
+    for (int k = 0; k < 3; k++) {
+        float at = camera_origin[k];
+        if (way[k] == 0.0) { // a division gives no number where the camera is on a bound
+            span.y = at < bounds_low[k] || at > bounds_high[k] ? 0.0 : span.y;
+        } else {
+            float a = (bounds_low[k] - at) / way[k], b = (bounds_high[k] - at) / way[k];
+            span = vec2(max(span.x, min(a, b)), min(span.y, max(a, b)));
+        }
+    }
+    return span;
+}
+
 void main()
 {
     vec3 ray = ray_of_pixel(), way = normalize(ray);
     float depth = texelFetch(opaque_depth, ivec2(gl_FragCoord.xy), 0).r;
-    float end = depth > 0.0 ? camera_near / depth * length(ray) : 1e30;
-    vec3 a = (bounds_low - camera_origin) / way, b = (bounds_high - camera_origin) / way;
-    vec3 enter = min(a, b), leave = max(a, b);
-    float begin = max(max(enter.x, enter.y), max(enter.z, 0.0));
-    end = min(min(leave.x, leave.y), min(leave.z, end));
-    float scattered = end > begin ? 1.0 - exp(-scattering * (end - begin)) : 0.0;
+    vec2 span = clip(way, vec2(0.0, depth > 0.0 ? camera_near / depth * length(ray) : 1e30));
+    float begin = span.x;
+    float scattered = span.y > begin ? 1.0 - exp(-scattering * (span.y - begin)) : 0.0;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < steps && scattered > 0.0; i++) {
         float share = (float(i) + 0.5) / float(steps);
