@@ -142,9 +142,11 @@ static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer
     return pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
 }
 
-/// Lights the volume. Several grids follow the camera as far as the scene reaches.
-static void light_volume(drawing *d, const camera_view *view)
+void drawing_light(drawing *d, const float eye[3], const float forward[3], const camera_view *view)
 {
+    if (d->light.lpv == NULL) {
+        return;
+    }
     const alp_lpv_options *o = &d->light.lpv->volume.options;
     const alp_scene_info info = alp_scene_get_info(d->scene);
     lpv_frame_scene in = {.scene = d->scene,
@@ -154,9 +156,9 @@ static void light_volume(drawing *d, const camera_view *view)
                           .camera = view,
                           .metals_black = d->surfaces.metals_black};
     for (int k = 0; k < 3; k++) {
-        const float near = fmaxf(view->origin[k], info.bounds_min[k]);
+        const float near = fmaxf(eye[k], info.bounds_min[k]);
         in.eye[k] = o->cascades > 1 ? (double)fminf(near, info.bounds_max[k]) : o->centre[k];
-        in.forward[k] = o->cascades > 1 ? (double)view->forward[k] : 0.0;
+        in.forward[k] = o->cascades > 1 ? (double)forward[k] : 0.0;
     }
     lpv_frame_light(d->light.lpv, &in);
 }
@@ -165,6 +167,7 @@ void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
+    drawing_light(d, view.origin, view.forward, &view);
     drawing_draw_view(d, &view);
 }
 
@@ -174,9 +177,6 @@ void drawing_draw_view(drawing *d, const camera_view *view)
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
     uint32_t layer = 0;
     const alp_scene_info info = alp_scene_get_info(d->scene);
-    if (d->light.lpv != NULL) {
-        light_volume(d, view);
-    }
     if (d->light.ssao != 0) {
         pass_ssao_draw(&d->ssao, &d->drawn, view, t);
     }
