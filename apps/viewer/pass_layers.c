@@ -29,9 +29,9 @@ void pass_layers_clear(const gl_targets *t)
 }
 
 void pass_layers_add(const pass_layers *pass, const gl_targets *t, GLuint light, GLuint through,
-                     uint32_t layer)
+                     uint32_t step)
 {
-    const int before = (int)(layer % 2);
+    const int before = (int)(step % 2);
     gl_targets_bind(t, t->sum_frames[1 - before]);
     glDisable(GL_DEPTH_TEST);
     glEnablei(GL_BLEND, 0);
