@@ -142,7 +142,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
-    code = code == EXIT_DONE ? field_check(a, model_of(a)) : code;
+    code = code == EXIT_DONE ? field_check(a, 1u << model_of(a)) : code;
     code = code == EXIT_DONE ? object_read(a, (const double[3]){0.0, 0.0, 0.0}, &o->object) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
     o->bounces = lighting_bounces(a);

@@ -45,10 +45,11 @@ static int check_options(const command_line *a)
         return usage_error(COMMAND_SAMPLE, "--path and --at are both standard input; give one of "
                                            "them a file");
     }
-    return field_check(a, with->choice == WITH_AMBIENCE ? FIELD_AMBIENCE
-                          : with->choice == WITH_LPV    ? FIELD_LPV
-                          : with->choice == WITH_PROBES ? FIELD_PROBES
-                                                        : FIELD_OTHER);
+    const field_model model = with->choice == WITH_AMBIENCE ? FIELD_AMBIENCE
+                              : with->choice == WITH_LPV    ? FIELD_LPV
+                              : with->choice == WITH_PROBES ? FIELD_PROBES
+                                                            : FIELD_OTHER;
+    return field_check(a, 1u << model);
 }
 
 typedef struct sampled {

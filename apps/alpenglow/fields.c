@@ -85,14 +85,15 @@ int probe_file_check(const command_line *a)
     return read_bounds(a, (const double[3]){0.0, 0.0, 0.0}, &unused);
 }
 
-int field_check(const command_line *a, field_model model)
+int field_check(const command_line *a, unsigned models)
 {
-    int code = model == FIELD_AMBIENCE ? flight_run_check(a) : flight_run_refuse(a);
+    const bool ambience = (models >> FIELD_AMBIENCE & 1u) != 0;
+    const bool lpv = (models >> FIELD_LPV & 1u) != 0;
+    int code = ambience ? flight_run_check(a) : flight_run_refuse(a);
     if (code == EXIT_DONE) {
-        code = model == FIELD_LPV ? lpv_run_check(a) : lpv_run_refuse(a);
+        code = lpv ? lpv_run_check(a) : lpv_run_refuse(a);
     }
-    if (code == EXIT_DONE && a->values[OPTION_CELL].given && model != FIELD_AMBIENCE &&
-        model != FIELD_LPV) {
+    if (code == EXIT_DONE && a->values[OPTION_CELL].given && !ambience && !lpv) {
         return usage_error(a->command, "--cell: does not apply to --with %s",
                            a->values[OPTION_WITH].text);
     }

@@ -18,8 +18,9 @@ typedef struct field_source {
 typedef enum field_model { FIELD_OTHER, FIELD_PROBES, FIELD_AMBIENCE, FIELD_LPV } field_model;
 
 /// Refuses options of other models, and those that contradict each other.
+/// @param models set of 1u << field_model: those of one picture
 /// @return EXIT_DONE, or EXIT_USAGE after a message
-int field_check(const command_line *arguments, field_model model);
+int field_check(const command_line *arguments, unsigned models);
 
 /// Probe options of the arguments: grid, rays, basis, light. `lighting` is copied, not its parts.
 /// @param origin of the scene in the world of its file

@@ -142,9 +142,11 @@ static bool draw_panes(const drawing *d, const camera_view *view, uint32_t layer
     return pass_surfaces_draw_panes(&d->surfaces, &d->drawn, &d->light, view, &d->targets, layer);
 }
 
-/// Lights the volume. Several grids follow the camera as far as the scene reaches.
-static void light_volume(drawing *d, const camera_view *view)
+void drawing_light(drawing *d, const float eye[3], const float forward[3], const camera_view *view)
 {
+    if (d->light.lpv == NULL) {
+        return;
+    }
     const alp_lpv_options *o = &d->light.lpv->volume.options;
     const alp_scene_info info = alp_scene_get_info(d->scene);
     lpv_frame_scene in = {.scene = d->scene,
@@ -154,9 +156,9 @@ static void light_volume(drawing *d, const camera_view *view)
                           .camera = view,
                           .metals_black = d->surfaces.metals_black};
     for (int k = 0; k < 3; k++) {
-        const float near = fmaxf(view->origin[k], info.bounds_min[k]);
+        const float near = fmaxf(eye[k], info.bounds_min[k]);
         in.eye[k] = o->cascades > 1 ? (double)fminf(near, info.bounds_max[k]) : o->centre[k];
-        in.forward[k] = o->cascades > 1 ? (double)view->forward[k] : 0.0;
+        in.forward[k] = o->cascades > 1 ? (double)forward[k] : 0.0;
     }
     lpv_frame_light(d->light.lpv, &in);
 }
@@ -165,18 +167,32 @@ void drawing_draw(drawing *d, const alp_camera *camera)
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const camera_view view = camera_view_of(camera, d->targets.width, d->targets.height, &info);
+    drawing_light(d, view.origin, view.forward, &view);
     drawing_draw_view(d, &view);
+}
+
+/// Adds the mist before a layer, if there is mist.
+/// @param layer its number; depths are of the layer before   @param end depth of the layer
+/// @param step  of the sum   @return the next step
+static uint32_t add_mist(const drawing *d, const camera_view *view, uint32_t layer, GLuint end,
+                         uint32_t step)
+{
+    const gl_targets *t = &d->targets;
+    const alp_scene_info info = alp_scene_get_info(d->scene);
+    if (d->light.scattering <= 0.0f) {
+        return step;
+    }
+    const mist m = {d->light.scattering, &d->light.lpv->volume, &d->light.lights, &info};
+    const GLuint before = layer > 0 ? t->depths[1 - layer % 2] : 0;
+    pass_air_draw(&d->air, &m, view, t, before, end, step);
+    return step + 1;
 }
 
 void drawing_draw_view(drawing *d, const camera_view *view)
 {
     const gl_targets *t = &d->targets;
     const bool panes = pass_surfaces_has_panes(&d->surfaces, &d->drawn);
-    uint32_t layer = 0;
-    const alp_scene_info info = alp_scene_get_info(d->scene);
-    if (d->light.lpv != NULL) {
-        light_volume(d, view);
-    }
+    uint32_t layer = 0, step = 0;
     if (d->light.ssao != 0) {
         pass_ssao_draw(&d->ssao, &d->drawn, view, t);
     }
@@ -185,14 +201,13 @@ void drawing_draw_view(drawing *d, const camera_view *view)
     gl_field_update(&d->light.field, d->scene);
     draw_opaque(d, view);
     while (panes && layer < LAYER_LIMIT && draw_panes(d, view, layer)) {
-        pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, layer++);
+        step = add_mist(d, view, layer, t->depths[layer % 2], step);
+        pass_layers_add(&d->layers, t, t->layer_light, t->layer_through, step++);
+        layer++;
     }
-    pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, layer++);
-    if (d->light.scattering > 0.0f) {
-        const mist m = {d->light.scattering, &d->light.lpv->volume, &d->light.lights, &info};
-        pass_air_draw(&d->air, &m, view, t, layer);
-    }
-    pass_background_draw(&d->background, view, t, t->lefts[layer % 2]);
+    step = add_mist(d, view, layer, t->opaque_depth, step);
+    pass_layers_add(&d->layers, t, t->opaque_light, t->opaque_through, step++);
+    pass_background_draw(&d->background, view, t, t->lefts[step % 2]);
 }
 
 alp_result drawing_develop(const drawing *d, alp_context *context, alp_film_options *film,

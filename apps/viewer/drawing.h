@@ -52,9 +52,14 @@ void drawing_destroy(drawing *d);
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
 /// Moves the object to a place, metres. @return EXIT_DONE, or EXIT_FAILED after a message
 int drawing_move_object(drawing *d, alp_context *context, const float position[3]);
-/// Draws a frame of light.
+/// Lights the volume of a mode that has one. Several grids follow the eye as far as the scene
+/// reaches.
+/// @param forward unit, the way of the grids ahead of the eye, or 0
+/// @param view    a view of blockers, or NULL
+void drawing_light(drawing *d, const float eye[3], const float forward[3], const camera_view *view);
+/// Lights the volume for a camera, and draws a frame of light.
 void drawing_draw(drawing *d, const alp_camera *camera);
-/// The same of any view with the size of the targets.
+/// Draws a frame of any view with the size of the targets, by the light that the volume has.
 void drawing_draw_view(drawing *d, const camera_view *view);
 /// Develops it by alp_film_develop's numbers.
 /// @param film  out: exposure becomes the one that was used

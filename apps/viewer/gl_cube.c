@@ -61,7 +61,9 @@ void gl_cube_draw(const gl_cube *cube, drawing *d, const float point[3])
 {
     const alp_scene_info info = alp_scene_get_info(d->scene);
     const GLsizei side = (GLsizei)cube->side;
-    glFrontFace(GL_CW); // of mirror images
+    const float everywhere[3] = {0.0f, 0.0f, 0.0f};
+    drawing_light(d, point, everywhere, NULL); // once for all faces
+    glFrontFace(GL_CW);                        // of mirror images
     for (int face = 0; face < FACES; face++) {
         const camera_view view = view_of_face(point, face, cube->side, &info);
         drawing_draw_view(d, &view);

@@ -22,14 +22,12 @@ void pass_air_destroy(pass_air *pass)
 }
 
 void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
-                   const gl_targets *t, uint32_t layer)
+                   const gl_targets *t, GLuint before, GLuint end, uint32_t step)
 {
-    gl_targets_bind(t, t->sum_frames[layer % 2]);
+    gl_targets_bind(t, t->sum_frames[1 - step % 2]);
     glDisable(GL_DEPTH_TEST);
     glEnablei(GL_BLEND, 0);
-    glEnablei(GL_BLEND, 1); // by the alphas of the outputs: the share that is scattered
-    glBlendFunci(0, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glBlendFunci(1, GL_ZERO, GL_ONE_MINUS_SRC_ALPHA);
+    glBlendFunc(GL_ONE, GL_ONE);
     glUseProgram(pass->program);
     glBindVertexArray(pass->array);
     camera_view_bind(view);
@@ -38,9 +36,11 @@ void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
     glUniform1f(UNIFORM_AIR_SCATTERING, m->scattering);
     glUniform3fv(UNIFORM_AIR_LOW, 1, m->info->bounds_min);
     glUniform3fv(UNIFORM_AIR_HIGH, 1, m->info->bounds_max);
+    glUniform1i(UNIFORM_PEELED, before != 0 ? PEEL_BEHIND : 0);
+    glBindTextureUnit(TEXTURE_DEPTH, before);
+    glBindTextureUnit(TEXTURE_LAYER_DEPTH, end);
     glBindTextureUnit(TEXTURE_OPAQUE_DEPTH, t->opaque_depth);
+    glBindTextureUnit(TEXTURE_LEFT, t->lefts[step % 2]);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glDisablei(GL_BLEND, 0);
-    glDisablei(GL_BLEND, 1);
-    glBlendFunc(GL_ONE, GL_ONE);
 }

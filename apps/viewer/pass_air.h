@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Draws mist before the surfaces: the light of a volume and of lamps that it scatters.
+// Draws mist between layers of surfaces: the light of a volume and of lamps that it scatters.
 #ifndef VIEWER_PASS_AIR_H
 #define VIEWER_PASS_AIR_H
 
@@ -22,9 +22,10 @@ typedef struct mist {
     const gl_lights *lights;
     const alp_scene_info *info;
 } mist;
-/// Puts mist before the sum of all layers.
-/// @param layer number of layers so far
+/// Adds the mist between two layers behind the sum, as pass_layers_add adds a layer.
+/// @param before, end depths of the two; before 0: from the camera on
+/// @param step        number of layers and mists so far
 void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
-                   const gl_targets *targets, uint32_t layer);
+                   const gl_targets *targets, GLuint before, GLuint end, uint32_t step);
 
 #endif

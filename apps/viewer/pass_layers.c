@@ -23,9 +23,9 @@ void pass_layers_clear(const gl_targets *t)
 }
 
 void pass_layers_add(const pass_layers *pass, const gl_targets *t, GLuint light, GLuint through,
-                     uint32_t layer)
+                     uint32_t step)
 {
-    const int before = (int)(layer % 2);
+    const int before = (int)(step % 2);
     screen_pass_bind(&pass->screen, t, t->sum_frames[1 - before]);
     glEnablei(GL_BLEND, 0);
     glBlendFunc(GL_ONE, GL_ONE);

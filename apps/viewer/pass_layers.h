@@ -18,8 +18,9 @@ void pass_layers_destroy(pass_layers *pass);
 void pass_layers_clear(const gl_targets *targets);
 /// Adds a layer behind the sum.
 /// @param light, through of the layer
-/// @param layer          its number, from 0; its result of lefts is lefts[1 - layer % 2]
+/// @param step           number of layers and mists so far; the share that is left behind the layer
+///                       goes to lefts[1 - step % 2]
 void pass_layers_add(const pass_layers *pass, const gl_targets *targets, GLuint light,
-                     GLuint through, uint32_t layer);
+                     GLuint through, uint32_t step);
 
 #endif

@@ -38,19 +38,28 @@ static alp_result develop(flight_job *job, double seconds, alp_image **developed
     return result;
 }
 
-/// Updates the light for a time of the flight.
+/// The flight of a volume that one of the modes reads, or NULL.
+static const flight_run *find_run(const view_job *view)
+{
+    const flight_run *own = view->drawing.light.source.flight;
+    return own != NULL ? own : view->beside.drawing.light.source.flight;
+}
+
+/// Updates the light of a mode for a time of the flight.
 static int move_light(view_job *view, const view_mode *mode, drawing *d, double time,
                       const alp_camera *camera)
 {
-    const flight_run *run = d->light.source.flight;
-    int code = EXIT_DONE;
-    if (mode->move != NULL) {
-        code = mode->move(&view->session, time, camera, &d->light);
-    }
-    if (code == EXIT_DONE && run != NULL && run->day > 0.0) {
-        code = drawing_set_lighting(d, view->session.context, &run->lighting);
-    }
-    return code;
+    return mode != NULL && mode->move != NULL ? mode->move(&view->session, time, camera, &d->light)
+                                              : EXIT_DONE;
+}
+
+/// Gives a mode that shows lamps and suns those of this moment of the day.
+static int move_sun(view_job *view, const view_mode *mode, drawing *d)
+{
+    const flight_run *run = find_run(view);
+    return mode != NULL && (mode->uses & USES_DIRECT) != 0 && run != NULL && run->day > 0.0
+               ? drawing_set_lighting(d, view->session.context, &run->lighting)
+               : EXIT_DONE;
 }
 
 /// Moves the object to its place at a time of the flight.
@@ -67,6 +76,22 @@ static int move_object(const view_job *view, drawing *d, double time)
     return drawing_move_object(d, view->session.context, position);
 }
 
+/// Moves the light and objects of both modes.
+static int move(view_job *view, double time, const alp_camera *camera)
+{
+    const view_mode *const modes[2] = {view->settings.mode, view->beside.mode};
+    drawing *const drawings[2] = {&view->drawing, &view->beside.drawing};
+    int code = EXIT_DONE;
+    for (int i = 0; i < 2 && code == EXIT_DONE; i++) {
+        code = move_light(view, modes[i], drawings[i], time, camera);
+    }
+    for (int i = 0; i < 2 && code == EXIT_DONE; i++) { // a flight has moved the sun
+        code = move_sun(view, modes[i], drawings[i]);
+        code = code == EXIT_DONE ? move_object(view, drawings[i], time) : code;
+    }
+    return code;
+}
+
 static int draw_frame(flight_job *job, uint64_t frame, const char *file)
 {
     view_job *view = job->view;
@@ -75,14 +100,7 @@ static int draw_frame(flight_job *job, uint64_t frame, const char *file)
     const alp_camera camera = flight_view(&at);
     alp_image *developed = NULL;
     double exposure = 0.0;
-    int moved = move_light(view, view->settings.mode, &view->drawing, time, &camera);
-    if (moved == EXIT_DONE && view->beside.mode != NULL) {
-        moved = move_light(view, view->beside.mode, &view->beside.drawing, time, &camera);
-    }
-    moved = moved == EXIT_DONE ? move_object(view, &view->drawing, time) : moved;
-    if (moved == EXIT_DONE && view->beside.mode != NULL) {
-        moved = move_object(view, &view->beside.drawing, time);
-    }
+    const int moved = move(view, time, &camera);
     if (moved != EXIT_DONE) {
         return moved;
     }
@@ -149,7 +167,7 @@ int view_flight_read(view_job *view)
 
 int view_flight(view_job *view)
 {
-    const flight_run *run = view->drawing.light.source.flight;
+    const flight_run *run = find_run(view);
     flight_job job = {.view = view,
                       .path = run != NULL ? &run->path : &view->path,
                       .count = view->arguments->values[OPTION_FRAMES].whole,

@@ -108,6 +108,7 @@ enum {
     MAPPED = LIT | USES_BOUNCES | USES_ATLAS | USES_TEXELS | USES_SEED,
     FITTED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_DIRECT | USES_NORMALS | USES_SSAO |
              USES_OBJECT,
+    FLOWN = FITTED & ~USES_BOUNCES,
     TRACED = LIT | USES_BOUNCES | USES_SEED | USES_SWITCH | USES_PATHS
 };
 
@@ -177,7 +178,7 @@ static const view_mode modes[] = {
      .bind = mode_field_bind},
     {.name = "ambience",
      .fragment = &shader_field_frag,
-     .uses = FITTED | USES_FIELD,
+     .uses = FLOWN | USES_FIELD,
      .method = ALP_RENDER_FIELD,
      .field = {.model = FIELD_AMBIENCE},
      .prepare = mode_field_prepare,
@@ -219,6 +220,14 @@ static const view_mode modes[] = {
 const view_mode *view_mode_of(const command_line *a)
 {
     return &modes[a->values[OPTION_WITH].choice];
+}
+
+/// The models of --with and --beside. @return set of 1u << field_model
+static unsigned models_of(const command_line *a)
+{
+    const option_value *beside = &a->values[OPTION_BESIDE];
+    const unsigned own = 1u << view_mode_of(a)->field.model;
+    return beside->given ? own | 1u << modes[beside->choice].field.model : own;
 }
 
 int view_mode_check(const command_line *a)
@@ -274,14 +283,12 @@ int view_mode_check(const command_line *a)
         return usage_error(COMMAND_VIEW, "%s: needs --read pixel",
                            a->values[OPTION_GLOSS].given ? "--gloss" : "--media");
     }
-    const field_model own = view_mode_of(a)->field.model;
-    return field_check(a, own == FIELD_OTHER && beside->given ? modes[beside->choice].field.model
-                                                              : own);
+    return field_check(a, models_of(a));
 }
 
 bool view_mode_flies(const command_line *a)
 {
-    return view_mode_of(a)->field.model == FIELD_AMBIENCE;
+    return (models_of(a) >> FIELD_AMBIENCE & 1u) != 0;
 }
 
 void mode_light_bind_ssao(const mode_light *light)

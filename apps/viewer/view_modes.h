@@ -71,7 +71,7 @@ const view_mode *view_mode_of(const command_line *arguments);
 /// Refuses options that no mode of the picture uses. @return EXIT_DONE, or EXIT_USAGE after a
 /// message
 int view_mode_check(const command_line *arguments);
-/// Whether light comes from a field that moves along the flight of --path also in a single picture.
+/// Whether the light of a mode of the picture moves along the flight of --path, also before -o.
 bool view_mode_flies(const command_line *arguments);
 void mode_light_destroy(mode_light *light);
 /// Binds ambient occlusion of the screen, and sets its uniform in the current program.

@@ -86,6 +86,12 @@ static int prepare_mode(view_job *job, const command_line *a, const view_mode *m
     return code;
 }
 
+static int prepare_beside(view_job *job)
+{
+    view_beside *b = &job->beside;
+    return b->mode != NULL ? prepare_mode(job, &b->arguments, b->mode, &b->drawing) : EXIT_DONE;
+}
+
 static int prepare(view_job *job)
 {
     session *s = &job->session;
@@ -94,13 +100,19 @@ static int prepare(view_job *job)
     job->settings.render.progress = session_progress;
     job->settings.render.progress_user = s;
     interrupt_defer();
-    int code = prepare_mode(job, job->arguments, job->settings.mode, &job->drawing);
-    if (code == EXIT_DONE && job->arguments->values[OPTION_BESIDE].given) {
+    int code = EXIT_DONE;
+    if (job->arguments->values[OPTION_BESIDE].given) {
         beside->arguments = *job->arguments;
         beside->arguments.values[OPTION_WITH] = job->arguments->values[OPTION_BESIDE];
         beside->mode = view_mode_of(&beside->arguments);
-        code = prepare_mode(job, &beside->arguments, beside->mode, &beside->drawing);
     }
+    // A flight comes first: it may set camera and sun of both.
+    const bool flown = beside->mode != NULL && beside->mode->field.model == FIELD_AMBIENCE;
+    code = flown ? prepare_beside(job) : code;
+    if (code == EXIT_DONE) {
+        code = prepare_mode(job, job->arguments, job->settings.mode, &job->drawing);
+    }
+    code = code == EXIT_DONE && !flown ? prepare_beside(job) : code;
     code = code == EXIT_DONE ? gl_context_check(&job->gl) : code;
     progress_clear(&s->progress);
     job->prepare_seconds = clock_seconds() - start;

@@ -38,7 +38,8 @@ int flight_run_check(const command_line *a)
         return usage_error(a->command, "--day: the sun is below the horizon at noon; give --sun "
                                        "AZ,EL,LUX with EL above 0");
     }
-    if (a->command != COMMAND_AMBIENCE && values[OPTION_BOUNCES].given) {
+    const bool read = a->command == COMMAND_AMBIENCE || a->command == COMMAND_VIEW; // or by a mode
+    if (!read && values[OPTION_BOUNCES].given) {
         return usage_error(a->command, "--bounces: does not apply to --with ambience");
     }
     return EXIT_DONE;

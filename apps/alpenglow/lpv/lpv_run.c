@@ -34,7 +34,7 @@ static int check_bounces(const command_line *a)
 
 int lpv_run_check(const command_line *a)
 {
-    if (a->command != COMMAND_RENDER && a->values[OPTION_SKY].given) { // or it is background
+    if (!command_is_picture(a->command) && a->values[OPTION_SKY].given) { // or it is background
         return usage_error(a->command, "--sky: light propagation holds no sky; leave it out");
     }
     if (a->command == COMMAND_SAMPLE && a->values[OPTION_DIRECT].choice == 1) {

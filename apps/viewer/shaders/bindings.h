@@ -45,6 +45,7 @@
 #define TEXTURE_OPAQUE_DEPTH 16 // of opaque surfaces
 #define TEXTURE_SUN_SHADOWS 14
 #define TEXTURE_LAMP_SHADOWS 15
+#define TEXTURE_LAYER_DEPTH 23 // of the layer that mist lies before
 #define TEXTURE_FIELD 17
 #define TEXTURE_PROBE_LIGHT 18
 #define TEXTURE_PROBE_MOMENTS 19
