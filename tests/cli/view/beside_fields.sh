@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # two modes that read fields: an option is taken if one of them reads it, and either may fly
 . "$(dirname "$0")/gl.bash"
-printf '%s\n' t,px,py,pz,tx,ty,tz 0,0.28,0.27,1.5,0.28,0.27,0 1,0.35,0.3,1.2,0.28,0.27,0 >flight.csv
+printf '%s\n' t,px,py,pz,tx,ty,tz 0,.1,.45,.4,.28,.27,0 1,.45,.45,.4,.28,.27,0 >flight.csv
 view="alpenglow view builtin:cornell --resolution 48x27 -q -f"
 fly="--path flight.csv --cell .2"
 # status NAME COMMAND...

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # mist of view is that of render: at a bound of the scene, and behind panes
 . "$(dirname "$0")/gl.bash"
+. "$(dirname "$0")/relative.bash"
 # Two specks span a box of air from -1 to 1.
 cat >air.obj <<'OBJ'
 mtllib panes.mtl
@@ -43,8 +44,7 @@ compare() {
     shift 2
     alpenglow render "$scene" --with lpv --grid 8 -q -f -o rendered.exr --samples 64 "$@" 2>/dev/null
     alpenglow view "$scene" --with lpv --grid 8 -q -f -o drawn.exr "$@" 2>/dev/null
-    alpenglow compare drawn.exr rendered.exr |
-        awk -v name="$name" '$1 == "relative" { print name ":", ($2 < .01 ? "equal" : "not equal, " $2) }'
+    relative "$name" .01 drawn.exr rendered.exr
 }
 mist="--media .7 --sun 90,20,10 --sun-size 0" # along the panes, which get none of it
 compare "camera on the upper bound" air.obj $mist --camera 1,0,5,1,0,0,1 --resolution 3x3
