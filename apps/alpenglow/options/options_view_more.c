@@ -53,8 +53,9 @@ static const option rows[] = {
      .value = "on|off",
      .choices = "off|on",
      .initial = "off",
-     .help = "Screen-space ambient occlusion. It dims the light of a model of ambient light by "
-             "surfaces that the picture shows near, and neither direct light nor emission."},
+     .help = "Screen-space ambient occlusion. It dims the light of fields and models of ambient "
+             "light by surfaces that the picture shows near, and neither direct light nor "
+             "emission."},
     {.id = OPTION_SSAO_RADIUS,
      .commands = IN_VIEW,
      .group = GROUP_PICTURE,
