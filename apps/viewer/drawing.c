@@ -87,7 +87,7 @@ void drawing_destroy(drawing *d)
     pass_ssao_destroy(&d->ssao);
     gl_object_destroy(&d->object);
     gl_scene_destroy(&d->drawn);
-    pass_air_destroy(&d->air);
+    screen_pass_destroy(&d->air);
     pass_shadows_destroy(&d->shadows);
     pass_film_destroy(&d->film);
     pass_layers_destroy(&d->layers);

@@ -24,7 +24,7 @@ typedef struct drawing {
     pass_background background;
     pass_film film;
     pass_shadows shadows;
-    pass_air air; // of a volume's mist
+    screen_pass air; // of a volume's mist
     pass_ssao ssao;
     mode_light light; // of the mode; owned
 } drawing;

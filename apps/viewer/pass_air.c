@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "pass_air.h"
 
-#include "options/options.h"
 #include "shader_list.h"
 #include "shaders/bindings.h"
 
-int pass_air_create(pass_air *pass)
+int pass_air_create(screen_pass *pass)
 {
-    *pass = (pass_air){.program = gl_program_create(&shader_screen_vert, &shader_air_frag)};
-    glCreateVertexArrays(1, &pass->array);
-    return pass->program != 0 ? EXIT_DONE : EXIT_FAILED;
+    return screen_pass_create(&shader_air_frag, pass);
 }
 
-void pass_air_destroy(pass_air *pass)
-{
-    if (pass->array != 0) {
-        glDeleteProgram(pass->program);
-        glDeleteVertexArrays(1, &pass->array);
-    }
-    *pass = (pass_air){0};
-}
-
-void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
+void pass_air_draw(const screen_pass *pass, const mist *m, const camera_view *view,
                    const gl_targets *t, GLuint before, GLuint end, uint32_t step)
 {
-    gl_targets_bind(t, t->sum_frames[1 - step % 2]);
-    glDisable(GL_DEPTH_TEST);
+    screen_pass_bind(pass, t, t->sum_frames[1 - step % 2]);
     glEnablei(GL_BLEND, 0);
     glBlendFunc(GL_ONE, GL_ONE);
-    glUseProgram(pass->program);
-    glBindVertexArray(pass->array);
     camera_view_bind(view);
     gl_lights_bind(m->lights);
     gl_lpv_bind(m->volume);
@@ -41,6 +26,6 @@ void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
     glBindTextureUnit(TEXTURE_LAYER_DEPTH, end);
     glBindTextureUnit(TEXTURE_OPAQUE_DEPTH, t->opaque_depth);
     glBindTextureUnit(TEXTURE_LEFT, t->lefts[step % 2]);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    screen_pass_draw();
     glDisablei(GL_BLEND, 0);
 }

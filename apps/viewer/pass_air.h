@@ -6,15 +6,10 @@
 #include "camera_view.h"
 #include "gl_lights.h"
 #include "gl_lpv.h"
-#include "gl_targets.h"
+#include "screen_pass.h"
 
-typedef struct pass_air {
-    GLuint program, array;
-} pass_air;
-
-/// @return EXIT_DONE, or EXIT_FAILED after a message; pass_air_destroy in both cases
-int pass_air_create(pass_air *pass);
-void pass_air_destroy(pass_air *pass);
+/// @return EXIT_DONE, or EXIT_FAILED after a message; screen_pass_destroy in both cases
+int pass_air_create(screen_pass *pass);
 
 typedef struct mist {
     float scattering; // 1/metre
@@ -25,7 +20,7 @@ typedef struct mist {
 /// Adds the mist between two layers behind the sum, as pass_layers_add adds a layer.
 /// @param before, end depths of the two; before 0: from the camera on
 /// @param step        number of layers and mists so far
-void pass_air_draw(const pass_air *pass, const mist *m, const camera_view *view,
+void pass_air_draw(const screen_pass *pass, const mist *m, const camera_view *view,
                    const gl_targets *targets, GLuint before, GLuint end, uint32_t step);
 
 #endif

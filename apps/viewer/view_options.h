@@ -6,7 +6,7 @@
 #include "lamps.h"
 #include "view_modes.h"
 
-/// What the arguments ask for.
+/// The settings that the arguments give.
 typedef struct view_settings {
     const view_mode *mode;
     alp_render_options render; // camera, size, atlas, lighting, bounces, seed

@@ -39,7 +39,7 @@ typedef enum alp_wrap {
 /// A texture as a material reads it. It is read bilinearly, without mip levels, at
 ///   (u', v') = transform · (u, v, 1)
 /// with (u, v) of `uv_slot`; (0, 0) where the surface lacks the slot. Missing channels of the image
-/// are filled: grey to RGB, alpha 1. Where alp_scene_get_image gives NULL, the value is 1 in all
+/// are filled: grey to RGB, alpha 1. If alp_scene_get_image gives NULL, the value is 1 in all
 /// channels, and the material has no normal map.
 ///
 /// A blended texture is the sum over k of w_k · (its value at the coordinates of slots[k]), on

@@ -97,7 +97,7 @@ ALP_API alp_lpv_options alp_lpv_options_for_view(const alp_scene *scene, uint32_
 ALP_API ALP_NODISCARD alp_result alp_lpv_follow(alp_lpv *lpv, const double eye[3],
                                                 const double forward[3]);
 
-/// Where a grid lies, for hosts that run a volume on a graphics card.
+/// Place of a grid, for hosts that run a volume on a graphics card.
 typedef struct alp_lpv_placement {
     double cell;       ///< metres
     int64_t corner[3]; ///< of cell 0, 0, 0, in cells from the origin

@@ -108,7 +108,7 @@
 #define SKY_COLORS 1
 #define SKY_IMAGE 2
 
-// Where a field is read; the order of --read.
+// Places where a field is read, in the order of --read.
 #define READ_PIXEL 0  // in TEXTURE_FIELD
 #define READ_VERTEX 1 // in BUFFER_FIELD_VERTICES
 #define READ_OBJECT 2 // in BUFFER_FIELD_OBJECTS

@@ -1,4 +1,4 @@
-// Where the grids of a light propagation volume lie, and how each gives way to the next one.
+// Places of the grids of a light propagation volume, and how each gives way to the next one.
 #include "lpv_grid.glsl"
 
 layout(location = UNIFORM_LPV_CELL) uniform float finest_cell; // metres

@@ -1,4 +1,4 @@
-// Where the camera sees a surface, as a ray finds it: precise however near the camera is.
+// The place of a surface in a pixel, as a ray finds it: precise however near the camera is.
 #include "pixel.glsl"
 #include "surface.glsl"
 

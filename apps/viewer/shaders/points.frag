@@ -1,5 +1,5 @@
 #version 450 core
-// Where a field is read on the processor: positions, and normals on the side of the camera.
+// The places at which the processor reads a field: positions, and normals on the camera's side.
 #include "place.glsl"
 
 void main()

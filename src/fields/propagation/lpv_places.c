@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where surfels go: which are usable, the share of each that a grid takes, and the cells that share
-// it. Places are sorted by layers of the grid for the workers that add them.
+// Places of surfels: which are usable, the share of each that a grid takes, and the cells that
+// share it. Places are sorted by layers of the grid for the workers that add them.
 #include "fields/propagation/lpv_places.h"
 
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where surfels go in the grids of a volume.
+// Places of surfels in the grids of a volume.
 #ifndef ALPI_FIELDS_LPV_PLACES_H
 #define ALPI_FIELDS_LPV_PLACES_H
 
