@@ -61,7 +61,7 @@ get_property(names GLOBAL PROPERTY names)
 list(JOIN names "\", \"" files)
 string(MAKE_C_IDENTIFIER ${SHADER} identifier)
 file(WRITE ${OUTPUT} "// Made by embed_shader.cmake.
-#include \"gl_program.h\"
+#include \"gl/gl_program.h\"
 
 static const unsigned char text[] = {
     ${bytes}0};

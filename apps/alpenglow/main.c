@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The main program: finds the command and runs it.
-#include "commands.h"
+#include "commands/commands.h"
 #include "streams.h"
 
 #include <alpenglow/alpenglow.h>

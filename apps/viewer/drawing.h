@@ -3,15 +3,15 @@
 #ifndef VIEWER_DRAWING_H
 #define VIEWER_DRAWING_H
 
-#include "gl_object.h"
-#include "pass_air.h"
-#include "pass_background.h"
-#include "pass_field.h"
-#include "pass_film.h"
-#include "pass_layers.h"
-#include "pass_shadows.h"
-#include "pass_ssao.h"
-#include "pass_surfaces.h"
+#include "gl/gl_object.h"
+#include "passes/pass_air.h"
+#include "passes/pass_background.h"
+#include "passes/pass_field.h"
+#include "passes/pass_film.h"
+#include "passes/pass_layers.h"
+#include "passes/pass_shadows.h"
+#include "passes/pass_ssao.h"
+#include "passes/pass_surfaces.h"
 
 typedef struct drawing {
     const alp_scene *scene;

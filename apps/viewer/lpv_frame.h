@@ -4,7 +4,7 @@
 #ifndef VIEWER_LPV_FRAME_H
 #define VIEWER_LPV_FRAME_H
 
-#include "pass_maps.h"
+#include "passes/pass_maps.h"
 
 #include <alpenglow/geometry.h>
 

@@ -3,7 +3,7 @@
 #ifndef VIEWER_PICTURE_H
 #define VIEWER_PICTURE_H
 
-#include "gl_targets.h"
+#include "gl/gl_targets.h"
 
 #include <alpenglow/image.h>
 

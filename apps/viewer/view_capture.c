@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "view_capture.h"
 
-#include "gl_cube.h"
+#include "gl/gl_cube.h"
 #include "sh_values.h"
 
 int capture_read(const command_line *a, const double origin[3], float point[3])

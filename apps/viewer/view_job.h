@@ -4,7 +4,7 @@
 #define VIEWER_VIEW_JOB_H
 
 #include "drawing.h"
-#include "gl_context.h"
+#include "gl/gl_context.h"
 #include "view_options.h"
 
 /// The second mode of a picture.

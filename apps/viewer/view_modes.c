@@ -3,7 +3,7 @@
 
 #include "lightmaps.h"
 #include "mode_fields.h"
-#include "shader_list.h"
+#include "passes/shader_list.h"
 #include "shaders/bindings.h"
 
 #include <stdlib.h>

@@ -3,11 +3,11 @@
 #ifndef VIEWER_VIEW_MODES_H
 #define VIEWER_VIEW_MODES_H
 
-#include "gl_ambient.h"
-#include "gl_field.h"
-#include "gl_lightmap.h"
-#include "gl_lights.h"
-#include "gl_program.h"
+#include "gl/gl_ambient.h"
+#include "gl/gl_field.h"
+#include "gl/gl_lightmap.h"
+#include "gl/gl_lights.h"
+#include "gl/gl_program.h"
 #include "lpv_frame.h"
 #include "path_picture.h"
 #include "picture_fields.h"

@@ -3,7 +3,7 @@
 #include "ambience/ambience_error.h"
 #include "ambience/ambience_pictures.h"
 #include "ambience/ambience_report.h"
-#include "commands.h"
+#include "commands/commands.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "output.h"

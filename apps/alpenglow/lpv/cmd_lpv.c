@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow lpv: light that is propagated anew in each of some frames.
 #include "cameras.h"
-#include "commands.h"
+#include "commands/commands.h"
 #include "interrupt.h"
 #include "lighting.h"
 #include "lpv/lpv_pictures.h"

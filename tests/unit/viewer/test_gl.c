@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "test_gl.h"
 
-#include "gl_context.h"
+#include "gl/gl_context.h"
 #include "options/options.h"
 #include "picture.h"
 #include "render/camera_rays.h"

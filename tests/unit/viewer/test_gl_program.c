@@ -2,11 +2,11 @@
 // Programs of shaders, and errors of OpenGL.
 #include "test_gl.h"
 
-#include "gl_buffer.h"
-#include "gl_context.h"
-#include "gl_textures.h"
+#include "gl/gl_buffer.h"
+#include "gl/gl_context.h"
+#include "gl/gl_textures.h"
 #include "options/options.h"
-#include "shader_list.h"
+#include "passes/shader_list.h"
 #include "shaders/bindings.h"
 
 #include <stdio.h>

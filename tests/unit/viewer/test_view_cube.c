@@ -3,7 +3,7 @@
 // library's.
 #include "test_gl.h"
 
-#include "gl_cube.h"
+#include "gl/gl_cube.h"
 
 #include <alpenglow/sh.h>
 

@@ -2,7 +2,7 @@
 // The cube map of a point in a volume of light: the faces show one volume, that of the point.
 #include "test_gl.h"
 
-#include "gl_cube.h"
+#include "gl/gl_cube.h"
 
 #include <math.h>
 #include <stdlib.h>

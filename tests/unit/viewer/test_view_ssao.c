@@ -3,7 +3,7 @@
 #include "test_gl.h"
 
 #include "options/options.h"
-#include "pass_ssao.h"
+#include "passes/pass_ssao.h"
 #include "scene/builtin/mesh_builder.h"
 
 #include <math.h>
