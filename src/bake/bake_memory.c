@@ -3,7 +3,7 @@
 // arrays, so that a hopeless bake fails before its rays are traced.
 #include "bake/bake_memory.h"
 
-#include "bake/light/light.h"
+#include "bake/light/light_settings.h"
 #include "bake/settings.h"
 #include "maps/radiosity/patches.h"
 
@@ -106,9 +106,9 @@ static uint64_t find_light_bytes(const alpi_bake_job *job)
     const bool solved = l->bounces > 0 && l->gather != ALP_GATHER_PATHS;
     const bool directional = (o->maps & (ALP_MAP_SH | ALP_MAP_DIRECTION)) != 0;
     return LIGHT_BYTES + (solved ? BOUNCE_BYTES * sides : 0) +
-           (l->denoise                           ? DENOISE_BYTES
-            : alpi_light_has_rounds(o) && solved ? ROUND_BYTES
-                                                 : 0) +
+           (l->denoise                             ? DENOISE_BYTES
+            : alpi_light_is_in_rounds(o) && solved ? ROUND_BYTES
+                                                   : 0) +
            (directional ? 2 * sizeof(alpi_directional) : 0) +
            LAYER_BYTES * (uint64_t)job->layers.light.count;
 }

@@ -54,17 +54,3 @@ alp_light_units alpi_bake_light_units(const alp_bake_options *o)
     }
     return o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE ? ALP_LIGHT_RADIANCE : ALP_LIGHT_IRRADIANCE;
 }
-
-// --- light ---------------------------------------------------------------------------------------
-
-bool alpi_light_has_rounds(const alp_bake_options *o)
-{
-    const bool may_end = o->sampling.time_limit > 0.0 || o->sampling.keep_partial;
-    return (o->light.error > 0.0f || may_end) && o->light.gather == ALP_GATHER_RAYS;
-}
-
-bool alpi_light_is_adaptive(const alp_bake_options *o)
-{
-    return o->light.gather == ALP_GATHER_RAYS && !o->light.denoise &&
-           o->sampling.accuracy != ALP_ADAPTIVE_OFF;
-}

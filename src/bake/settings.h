@@ -27,9 +27,4 @@ bool alpi_bake_exports(const alp_bake_options *options, const alp_scene *scene);
 /// Units of the light in an asset; never AUTO.
 alp_light_units alpi_bake_light_units(const alp_bake_options *options);
 
-/// Whether light is gathered in rounds: for an error, a time, or a user who may end it.
-bool alpi_light_has_rounds(const alp_bake_options *options);
-/// Whether texels of light are interpolated, in rounds of all texels.
-bool alpi_light_is_adaptive(const alp_bake_options *options);
-
 #endif

@@ -5,7 +5,7 @@
 #include "bake/check.h"
 #include "bake/files/outputs.h"
 #include "bake/layers.h"
-#include "bake/light/light.h"
+#include "bake/light/light_settings.h"
 #include "bake/settings.h"
 
 #include "atlas/factors.h"
@@ -141,9 +141,10 @@ static double count_light_rays(const alpi_bake_job *job, double texels, uint32_t
         return texels * l->samples;
     }
     const double blocks = texels / TEXELS_PER_BLOCK;
+    const alpi_light_settings settings =
+        alpi_light_choose(job, to_count(texels), (uint32_t)to_count(texels));
     const double times = l->layers ? 2.0 : 1.0; // layers trace the rays of texels once more
-    return SHADOW_SHARE * texels * alpi_light_first_direct(job) * lights +
-           blocks * alpi_light_block_rays(l, to_count(texels)) +
+    return SHADOW_SHARE * texels * settings.direct_samples * lights + blocks * settings.patch_rays +
            times * count_gathered(l) * count_traced(o, texels, LIT_EDGE_TEXELS);
 }
 

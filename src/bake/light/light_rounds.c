@@ -1,465 +1,320 @@
 // SPDX-License-Identifier: MIT
-// Rounds of rays: direct and bounced light are gathered apart, and get as many more samples as
-// bring both together to the error that was asked for at the least cost: bounced light as many for
-// each texel, direct light by its noise (light_more_direct.c). Then the texels that err most get
-// more alone (light_next.c). Rounds have random numbers of their own; what they find is averaged by
-// their numbers of samples.
+// Direct and bounced light are gathered apart. Each round adds samples or rays, whichever lowers
+// the error at the lower cost (light_plan.c). Rounds have random numbers of their own; their
+// results are averaged by their numbers of samples.
 //
 // With shares wᵢ of the samples and errors bᵢ + eᵢ of the rounds, bᵢ the bias of interpolation and
-// eᵢ noise, a texel's squared error is
+// eᵢ noise, the squared error of a texel is
 //
 //     E[(Σ wᵢ (bᵢ + eᵢ))²] = (Σ wᵢ bᵢ)² + Σ wᵢ² Var eᵢ
 //
-// Noise falls with the number of rounds. Bias does not: the same texels between the same others
-// miss the same light in each. So what was ever interpolated cannot be told from the errors of
-// single rounds: some texels, held out, are gathered beside the map in each round, x̂ = Σ wᵢ yᵢ, and
-// the mean over them of (x − x̂)² − Var x̂ is the squared error of the whole, whatever it is made of.
-#include "bake/layers.h"
-#include "bake/light/light_rays.h"
+// Noise falls with the number of rounds. Bias does not: the same texels between the same neighbours
+// have the same bias in each round. So some texels are held out: they trace rays of their own in
+// each round, x̂ = Σ wᵢ yᵢ. The mean of (x − x̂)² − Var x̂ over them is the squared error of all
+// interpolated texels.
+#include "bake/light/light_rounds.h"
 
+#include "bake/light/light_gather.h"
+#include "bake/light/light_plan.h"
+#include "bake/light/light_samples.h"
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/radiosity/bounced_map.h"
 
-#include <math.h>
 #include <string.h>
 
 enum {
-    FIRST_DIRECT = 8, // samples, where there are rounds
     ROUND_LIMIT = 12,
-    TIMED_ROUND_LIMIT = 64 // each adds about as much as there is, or ends with the time
+    TIMED_ROUND_LIMIT = 64 // each doubles the samples, or ends with the time
 };
-// Of the time that is left, what a round may take: how long it takes is a guess.
-static const double TIME_SHARE = 0.9;
-
-/// Without rounds, as many as make direct light's error the smaller one of the two by a half:
-/// measured on the Cornell box, 64 beside 128 rays, and 128 beside 512. Beside fewer rays fewer pay
-/// there, and not where light comes through windows.
-uint32_t alpi_light_first_direct(const alpi_bake_job *job)
-{
-    enum { DIRECT_SAMPLES = 64, MOST_DIRECT = 512, RAYS = 128 };
-    uint32_t samples = DIRECT_SAMPLES;
-    if (alpi_light_has_rounds(&job->options)) {
-        return FIRST_DIRECT;
-    }
-    while (samples < MOST_DIRECT &&
-           pow(samples * 2.0 / DIRECT_SAMPLES, 2.0) * RAYS <= job->options.light.samples) {
-        samples *= 2;
-    }
-    return samples;
-}
 
 // --- one round -----------------------------------------------------------------------------------
 
-/// Texels that send rays in this round.
-static const uint32_t *senders(const alpi_light_round_state *r, uint32_t *count)
+static void note_interpolated(alpi_light_rounds *r)
 {
-    const bool few = r->worst.count > 0;
-    *count = few ? r->worst.count : r->task->count;
-    return few ? r->worst.list : r->task->order;
-}
-
-/// Maps what the senders of this round gather, by texels that rays are traced from and others.
-static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *gather,
-                              const alpi_gatherer *beside)
-{
-    alpi_bake_job *job = r->job;
-    const alpi_light_task *t = r->task;
-    const bool all = r->worst.count == 0;
-    const uint32_t rays = gather->gatherer->packet_count * ALPI_PACKET;
-    uint8_t *states = all ? r->states : r->worst.marks;
-    alpi_bounced_options options = {
-        .gather = gather,
-        .near = job->gathering.validity.near,
-        .adaptive = all && alpi_light_is_adaptive(&r->job->options),
-        .straight = true,
-        .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
-        .beside = beside,
-        .joined = r->fixed == NULL,
-        .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : t->lattice->values,
-    };
-    options.order = senders(r, &options.count);
-    if (!all) { // none but those of the list has a state
-        memset(states, 0, t->receivers->count);
-    }
-    // As in the round of all before.
-    alpi_bounced_report report = {.traced = job->report.light_traced, .factor = r->factor};
-    const double began = alpi_seconds();
-    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, states, &report));
-    if (all) {
-        const double sent = (double)rays * fmax((double)report.traced, 1.0);
-        r->ray_seconds = (alpi_seconds() - began) / sent;
-        r->factor = report.factor;
-        r->sending = (double)report.traced;
-        r->rays_power = ALPI_LIGHT_RAYS_POWER;
-        job->report.light_traced = report.traced;
-        job->report.light_interpolated = report.interpolated;
-    }
-    job->report.rays += report.rays;
-    r->sent += (double)report.rays * (1.0 + job->layers.light.count);
-    job->report.light_rounds++;
-    return alpi_bake_gather_layers(job, r->solution, &options, t->lattice, states, r->rays_of, rays,
-                                   &t->progress);
-}
-
-/// Bounced light by `rays` more of each texel that sends any.
-static alp_result gather_bounced(alpi_light_round_state *r, uint32_t rays,
-                                 alpi_reference_value *values, float (*skies)[3],
-                                 alpi_directional *directional)
-{
-    alpi_light_rays by;
-    alpi_light_rays_start(r, rays, alpi_light_round_seed(r, false), &by);
-    by.gather.values = values;
-    by.gather.skies = skies;
-    by.gather.directional = directional;
-    return map_bounced(r, &by.gather, &by.beside);
-}
-
-void alpi_light_merge(alpi_reference_value *v, const alpi_reference_value *fresh, double had,
-                      double more)
-{
-    const float a = (float)(had / (had + more)), b = (float)(more / (had + more));
-    for (int k = 0; k < 3; k++) {
-        v->mean[k] = a * v->mean[k] + b * fresh->mean[k];
-        v->variance[k] = a * a * v->variance[k] + b * b * fresh->variance[k];
+    for (uint32_t i = 0; i < r->light->count; i++) {
+        const uint32_t t = r->light->order[i];
+        r->interpolated.marks[t] |= r->states[t] == ALPI_TEXEL_INTERPOLATED;
     }
 }
 
-/// The same of light by direction, where it is wanted.
-static void mix(const alpi_light_round_state *r, alpi_directional *directional, uint32_t texel,
-                double had, double more)
+/// Sets the variance of texels that any round interpolated; see above.
+static void state_interpolated(alpi_light_rounds *r, uint32_t rays)
 {
-    if (directional != NULL) {
-        alpi_directional_mix(&directional[texel], (float)(had / (had + more)),
-                             &r->fresh_directional[texel], (float)(more / (had + more)));
-    }
-}
-
-static void note_interpolated(const alpi_light_round_state *r)
-{
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        r->between[t] |= r->states[t] == ALPI_TEXEL_INTERPOLATED;
-    }
-}
-
-/// States the squared error of what was ever interpolated; see above.
-static void merge_held_out(const alpi_light_round_state *r, uint32_t rays)
-{
-    const alpi_held_out *h = r->held_out;
+    const alpi_held_out *h = r->interpolated.held_out;
     float variance[3];
     note_interpolated(r);
     for (uint32_t i = 0; i < h->count; i++) {
-        alpi_light_merge(&r->held[i], &h->values[i], r->rays, rays);
+        alpi_light_merge(&r->interpolated.means[i], &h->values[i], r->rays.per_texel, rays);
     }
-    if (h->count == 0) { // nothing was in the first round: each round tells its own
+    if (h->count == 0) { // the first round interpolated nothing: each states its own error
         return;
     }
-    alpi_held_out_error(h->texels, r->held, h->count, r->task->values, variance);
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        const uint32_t t = r->task->order[i];
-        if (r->between[t] != 0) {
-            memcpy(r->task->values[t].variance, variance, sizeof variance);
+    alpi_held_out_error(h->texels, r->interpolated.means, h->count, r->light->values, variance);
+    for (uint32_t i = 0; i < r->light->count; i++) {
+        const uint32_t t = r->light->order[i];
+        if (r->interpolated.marks[t] != 0) {
+            memcpy(r->light->values[t].variance, variance, sizeof variance);
         }
     }
 }
 
-static alp_result add_bounced(alpi_light_round_state *r, uint32_t rays)
+/// Merges the light of the round at one texel.
+static void merge_texel(alpi_light_rounds *r, uint32_t t, uint32_t rays)
+{
+    const double had = r->rays.of_texels[t], all = had + rays;
+    const float a = (float)(had / all), b = (float)(rays / all);
+    alpi_light_merge(&r->light->values[t], &r->fresh.values[t], had, rays);
+    if (r->light->directional != NULL) {
+        alpi_directional_mix(&r->light->directional[t], a, &r->fresh.directional[t], b);
+    }
+    for (int k = 0; k < 3 && r->skies != NULL; k++) {
+        r->skies[t][k] += b * (r->fresh.skies[t][k] - r->skies[t][k]);
+    }
+    r->rays.of_texels[t] += rays;
+    r->rays.most = r->rays.of_texels[t] > r->rays.most ? r->rays.of_texels[t] : r->rays.most;
+}
+
+static alp_result add_rays(alpi_light_rounds *r, uint32_t rays)
 {
     double noise;
     uint32_t count;
-    const uint32_t *order = senders(r, &count);
-    ALP_TRY(alpi_light_show(r->job, r->task, r->solution, r->rays, &noise));
-    ALP_TRY(gather_bounced(r, rays, r->fresh, r->fresh_skies, r->fresh_directional));
+    const uint32_t *list = alpi_light_senders(r, &count);
+    ALP_TRY(alpi_light_relight(r, r->rays.per_texel, &noise));
+    ALP_TRY(alpi_light_gather(r, rays, &r->fresh));
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t t = order[i];
-        const double had = r->rays_of[t];
-        const float b = (float)(rays / (had + rays));
-        alpi_light_merge(&r->task->values[t], &r->fresh[t], had, rays);
-        mix(r, r->task->directional, t, had, rays);
-        for (int k = 0; k < 3 && r->skies != NULL; k++) {
-            r->skies[t][k] += b * (r->fresh_skies[t][k] - r->skies[t][k]);
-        }
-        r->rays_of[t] += rays;
-        r->most_rays = r->rays_of[t] > r->most_rays ? r->rays_of[t] : r->most_rays;
+        merge_texel(r, list[i], rays);
     }
     if (r->worst.count == 0) {
-        merge_held_out(r, rays);
-        r->solved_noise += rays / ((double)r->rays + rays) * (noise - r->solved_noise);
-        r->rays += rays;
-        r->job->report.light_samples = r->rays;
+        const double share = rays / ((double)r->rays.per_texel + rays);
+        state_interpolated(r, rays);
+        r->errors.solved_noise += share * (noise - r->errors.solved_noise);
+        r->rays.per_texel += rays;
+        r->light->job->report.light_samples = r->rays.per_texel;
     }
     return ALP_OK;
 }
 
-// --- what comes next -----------------------------------------------------------------------------
-
-/// The rays that are left of those. A sample of direct light counts as one even where it aims at
-/// nothing and traces none.
-static double rays_left(const alpi_light_round_state *r)
+/// @param samples of a texel, within the time   @param rays whether rays follow
+/// @param added out: whether any texel got samples
+static alp_result add_samples(alpi_light_rounds *r, const alpi_light_plan *plan, double samples,
+                              bool rays, bool *added)
 {
-    return fmax(r->ray_limit - r->sent - r->direct.drawn, 0.0);
+    const double listed = fmax(plan->noisy * (double)r->light->count, 1.0);
+    const bool whole = isinf(r->light->clock->deadline) && !r->limited;
+    const alpi_light_goal goal = {.wanted = plan->for_direct * r->errors.scale,
+                                  .each = r->for_worst,
+                                  .among = r->for_worst ? r->worst.marks : NULL,
+                                  .most = whole ? alpi_light_rays_left(r) : samples * listed,
+                                  .seed = alpi_light_round_seed(r, true)};
+    alpi_light_clock_part(r->light->clock, false, rays ? 1.0 : 0.0);
+    return alpi_light_add_samples(&r->direct, &goal, added);
 }
 
-/// Cuts a round to the rays that are left. @param listed, sending texels that get either
-static void keep_ray_limit(alpi_light_round_state *r, double listed, double sending, double *direct,
-                           double *rays)
+/// Runs a planned round, as far as the time allows.
+/// @param done out: nothing was added
+static alp_result run_round(alpi_light_rounds *r, const alpi_light_plan *plan, bool *done)
 {
-    const double left = rays_left(r);
-    const double wanted = listed * *direct + sending * *rays;
-    if (wanted > left) {
-        const double share = left / wanted;
-        *direct = share * *direct >= 0.125 * alpi_light_typical_samples(&r->direct)
-                      ? share * *direct
-                      : 0.0;
-        *rays = share * *rays >= 0.125 * r->rays ? share * *rays : 0.0;
-        r->limited = true;
-    }
-}
-
-/// As many of `samples` as there is time for; 0 where they would be too few to help those there
-/// are.
-static double affordable(const alpi_light_round_state *r, double samples, double seconds_each,
-                         double there)
-{
-    const double left = TIME_SHARE * (r->task->clock->deadline - alpi_seconds());
-    const double most = isinf(left) ? samples : fmin(samples, fmax(left, 0.0) / seconds_each);
-    return most < samples && most < there / 8.0 ? 0.0 : most;
-}
-
-static alp_result measure(alpi_light_round_state *r)
-{
-    return alpi_light_round_measure(r, r->task->order, r->task->count);
-}
-
-/// One more round of what is too noisy.
-/// @param done out: nothing is, or nothing helps, or the time is over
-static alp_result improve(alpi_light_round_state *r, bool *done)
-{
-    alpi_light_plan p;
-    ALP_TRY(alpi_light_round_plan(r, &p));
-    double direct = p.direct, rays = p.rays;
-    if (direct <= 0.0 && rays <= 0.0) {
-        *done = true;
-        return ALP_OK;
-    }
-    r->number++;
-    const double listed = fmax(p.noisy * (double)r->task->count, 1.0); // texels, about
+    const double listed = fmax(plan->noisy * (double)r->light->count, 1.0);
+    const double each = listed * r->direct.seconds * (plan->rays > 0.0 ? 2.0 : 1.0);
+    const double samples =
+        alpi_light_affordable(r, plan->direct, each, alpi_light_typical_samples(&r->direct));
+    const double before = r->errors.direct * r->errors.scale;
     uint32_t count;
-    (void)senders(r, &count);
-    const double sending = fmin(count, r->sending);
-    keep_ray_limit(r, listed, sending, &direct, &rays);
-    if (direct <= 0.0 && rays <= 0.0) {
-        *done = true;
-        return ALP_OK;
+    bool added = false;
+    (void)alpi_light_senders(r, &count);
+    r->number++;
+    if (samples > 0.0) {
+        ALP_TRY(add_samples(r, plan, samples, plan->rays > 0.0, &added));
     }
-    const double direct_asked = direct, rays_asked = rays;
-    bool dealt = false;
-    const double each = listed * r->direct.seconds * (rays > 0.0 ? 2.0 : 1.0);
-    direct = affordable(r, direct, each, alpi_light_typical_samples(&r->direct));
-    if (direct > 0.0) {
-        const alpi_light_goal goal = {
-            .wanted = p.for_direct * r->scale,
-            .each = r->for_worst,
-            .among = r->for_worst ? r->worst.marks : NULL,
-            .most = isinf(r->task->clock->deadline) && !r->limited ? rays_left(r) : direct * listed,
-            .seed = alpi_light_round_seed(r, true)};
-        alpi_light_clock_part(r->task->clock, false, rays > 0.0 ? 1.0 : 0.0);
-        ALP_TRY(alpi_light_more_direct(&r->direct, &goal, &dealt));
-    }
-    rays = affordable(r, rays, r->ray_seconds * sending, r->rays);
+    const double rays = alpi_light_affordable(
+        r, plan->rays, r->rays.seconds * fmin(count, r->rays.sending), r->rays.per_texel);
     if (rays > 0.0) {
-        alpi_light_clock_part(r->task->clock, true, 0.0);
-        ALP_TRY(add_bounced(r, alpi_light_ray_count(rays)));
+        alpi_light_clock_part(r->light->clock, true, 0.0);
+        ALP_TRY(add_rays(r, alpi_light_ray_count(rays)));
     }
-    if (direct < direct_asked || rays < rays_asked) { // the clock had a say
-        r->cut_off = true;
-    }
-    if (direct <= 0.0 && rays <= 0.0) { // no time for more
-        *done = r->cut_off = true;
-    }
-    *done = *done || (!dealt && rays <= 0.0); // all that are noisy have as many as they may
-    const double before = r->direct_error * r->scale;
-    ALP_TRY(measure(r));
-    if (direct > 0.0 && !r->for_worst) {
-        r->direct.power = alpi_light_power(r->direct.power, r->direct.foreseen / before,
-                                           r->direct_error * r->scale / before);
+    r->cut_off = r->cut_off || samples < plan->direct || rays < plan->rays;
+    *done = !added && rays <= 0.0;
+    ALP_TRY(alpi_light_measure(r, r->light->order, r->light->count));
+    if (samples > 0.0 && !r->for_worst) {
+        r->direct.power = alpi_light_power(r->direct.power, r->direct.predicted / before,
+                                           r->errors.direct * r->errors.scale / before);
     }
     return ALP_OK;
 }
 
-// --- all of them ---------------------------------------------------------------------------------
+// --- the first round -----------------------------------------------------------------------------
 
-/// What samples of direct light take that are added to those of the solution.
-static alp_result start_direct(alpi_light_round_state *r)
+/// Prepares samples of direct light beside those of the solution.
+static alp_result start_direct(alpi_light_rounds *r)
 {
-    alp_context *context = r->job->context;
-    const uint32_t texels = r->task->receivers->count;
-    ALPI_TRY_NEW(context, r->fresh, texels);
-    if (r->task->directional != NULL) {
-        ALPI_TRY_NEW(context, r->fresh_directional, texels);
+    alpi_light_bake *light = r->light;
+    alp_context *context = light->job->context;
+    const uint32_t texels = light->receivers->count;
+    const uint32_t samples = r->solution->options.direct_samples;
+    r->direct = (alpi_light_direct){.light = light,
+                                    .solution = r->solution,
+                                    .values = r->solution->direct,
+                                    .most = samples,
+                                    .limit = light->settings.most_rays,
+                                    .power = ALPI_LIGHT_FIRST_POWER,
+                                    .seconds = r->solution->direct_seconds /
+                                               (samples * fmax(light->count, 1.0))};
+    if (!light->settings.in_rounds) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(context, r->fresh.values, texels);
+    if (light->directional != NULL) {
+        ALPI_TRY_NEW(context, r->fresh.directional, texels);
     }
     ALPI_TRY_NEW(context, r->direct.counts, texels);
-    r->direct.fresh = r->fresh;
-    r->direct.fresh_directional = r->fresh_directional;
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        r->direct.counts[r->task->order[i]] = r->direct.most;
+    r->direct.fresh = r->fresh.values;
+    r->direct.fresh_directional = r->fresh.directional;
+    for (uint32_t i = 0; i < light->count; i++) {
+        r->direct.counts[light->order[i]] = samples;
     }
     return ALP_OK;
 }
 
-/// The first round, without which there is nothing.
-static alp_result begin(alpi_light_round_state *r)
+static alp_result run_first(alpi_light_rounds *r)
 {
-    alp_context *context = r->job->context;
-    const uint32_t texels = r->task->receivers->count;
-    const uint32_t direct = r->solution->options.direct_samples;
-    const bool rounds = alpi_light_has_rounds(&r->job->options);
-    uint32_t rays = alpi_light_round_most_rays(&r->job->options.light);
-    const bool more = rounds && rays > ALPI_LIGHT_FIRST_RAYS;
-    ALPI_TRY_NEW(context, r->task->values, texels);
+    alpi_light_bake *light = r->light;
+    const alpi_light_settings *s = &light->settings;
+    alp_context *context = light->job->context;
+    const uint32_t texels = light->receivers->count;
+    const alpi_gatherer *patches = r->solution->options.gatherer;
+    const bool more = s->in_rounds && s->most_rays > ALPI_LIGHT_FIRST_RAYS;
+    uint32_t rays = more ? ALPI_LIGHT_FIRST_RAYS : s->most_rays;
+    ALPI_TRY_NEW(context, light->values, texels);
     if (alpi_radiosity_scene(r->solution).sky) {
         ALPI_TRY_NEW(context, r->skies, texels);
     }
     ALPI_TRY_NEW(context, r->states, texels);
-    ALPI_TRY_NEW(context, r->held_out, 1);
-    r->solved_noise = 1.0 / sqrt((double)r->solution->options.gatherer->packet_count * ALPI_PACKET);
-    r->direct = (alpi_light_direct){.job = r->job,
-                                    .task = r->task,
-                                    .solution = r->solution,
-                                    .values = r->solution->direct,
-                                    .most = direct,
-                                    .limit = rays,
-                                    .power = ALPI_LIGHT_FIRST_POWER,
-                                    .seconds = r->solution->direct_seconds /
-                                               (direct * fmax(r->task->count, 1.0))};
-    if (rounds) {
-        ALP_TRY(start_direct(r));
+    ALPI_TRY_NEW(context, r->interpolated.held_out, 1);
+    r->errors.solved_noise = 1.0 / sqrt((double)patches->packet_count * ALPI_PACKET);
+    ALP_TRY(start_direct(r));
+    if (s->piloted) {
+        ALP_TRY(alpi_light_run_pilot(r, &rays));
     }
-    if (more) {
-        ALP_TRY(alpi_light_prepare_first(r, &rays));
-    }
-    const bool planned = r->sending > 0.0; // to be the last one
-    alpi_light_clock_part(r->task->clock, true, more && !planned ? 1.0 : 0.0);
-    ALP_TRY(gather_bounced(r, rays, r->task->values, r->skies, r->task->directional));
-    r->rays = r->most_rays = rays;
-    r->job->report.light_samples = r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : rays;
-    return measure(r);
+    alpi_light_clock_part(light->clock, true, more && !s->piloted ? 1.0 : 0.0);
+    const alpi_light_fresh into = {light->values, r->skies, light->directional};
+    ALP_TRY(alpi_light_gather(r, rays, &into));
+    r->rays.per_texel = r->rays.most = rays;
+    light->job->report.light_samples =
+        r->fixed != NULL ? r->fixed->packet_count * ALPI_PACKET : rays;
+    return alpi_light_measure(r, light->order, light->count);
 }
 
-static alp_result go_on(alpi_light_round_state *r)
+// --- the rounds after it -------------------------------------------------------------------------
+
+static alp_result start_rounds(alpi_light_rounds *r)
 {
-    alp_context *context = r->job->context;
-    const uint32_t texels = r->task->receivers->count;
-    const bool timed = !(r->job->options.light.error > 0.0f);
-    const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
+    const alpi_light_bake *light = r->light;
+    alp_context *context = light->job->context;
+    const uint32_t texels = light->receivers->count;
+    const alpi_held_out *h = r->interpolated.held_out;
     if (r->skies != NULL) {
-        ALPI_TRY_NEW(context, r->fresh_skies, texels);
+        ALPI_TRY_NEW(context, r->fresh.skies, texels);
     }
-    ALPI_TRY_NEW(context, r->between, texels);
-    ALPI_TRY_NEW(context, r->rays_of, texels);
-    if (!timed) {
+    ALPI_TRY_NEW(context, r->interpolated.marks, texels);
+    ALPI_TRY_NEW(context, r->rays.of_texels, texels);
+    if (light->job->options.light.error > 0.0f) {
         ALPI_TRY_NEW(context, r->worst.marks, texels);
-        ALPI_TRY_NEW(context, r->worst.list, r->task->count + 1);
+        ALPI_TRY_NEW(context, r->worst.list, light->count + 1);
     }
-    ALPI_TRY_NEW(context, r->held, r->held_out->count);
-    memcpy(r->held, r->held_out->values, r->held_out->count * sizeof *r->held);
+    ALPI_TRY_NEW(context, r->interpolated.means, h->count);
+    memcpy(r->interpolated.means, h->values, h->count * sizeof *h->values);
     note_interpolated(r);
-    for (uint32_t i = 0; i < r->task->count; i++) {
-        r->rays_of[r->task->order[i]] = r->rays;
+    for (uint32_t i = 0; i < light->count; i++) {
+        r->rays.of_texels[light->order[i]] = r->rays.per_texel;
     }
+    return ALP_OK;
+}
+
+static alp_result run_others(alpi_light_rounds *r)
+{
+    const bool timed = !(r->light->job->options.light.error > 0.0f);
+    const uint32_t limit = timed ? TIMED_ROUND_LIMIT : ROUND_LIMIT;
+    ALP_TRY(start_rounds(r));
     for (bool done = false; !done && r->number < limit;) {
-        ALP_TRY(improve(r, &done));
+        alpi_light_plan plan;
+        ALP_TRY(alpi_light_plan_round(r, &plan));
+        if (plan.direct <= 0.0 && plan.rays <= 0.0) {
+            return ALP_OK;
+        }
+        ALP_TRY(run_round(r, &plan, &done));
     }
     return ALP_OK;
 }
 
-/// Whether a round that was cut off may be left out.
-static bool may_be_dropped(const alpi_light_round_state *r)
+/// Whether a round that was cut off may be dropped.
+static bool may_be_dropped(const alpi_light_rounds *r)
 {
-    const alpi_light_clock *c = r->task->clock;
-    return c->refused ? r->job->options.sampling.keep_partial : alpi_light_clock_is_late(c);
+    const alpi_light_clock *c = r->light->clock;
+    return c->refused ? r->light->job->options.sampling.keep_partial : alpi_light_clock_is_late(c);
 }
 
-static alp_result warn_of_error(alpi_light_round_state *r)
+static alp_result warn_of_error(alpi_light_rounds *r)
 {
-    const bool wanted = r->job->options.light.error > 0.0f;
-    if (r->cut_off || (wanted && isnan(r->map.over_scale.p99))) {
-        ALP_TRY(alpi_light_round_look(r));
+    alpi_bake_job *job = r->light->job;
+    const double goal = (double)job->options.light.error;
+    const alpi_relative_error *e = &r->errors.map.over_scale;
+    if (r->cut_off || (goal > 0.0 && isnan(e->p99))) {
+        ALP_TRY(alpi_light_measure_map(r));
     }
-    r->job->report.cut_off = r->job->report.cut_off || r->cut_off;
-    const alpi_relative_error *e = &r->map.over_scale;
-    const double goal = (double)r->job->options.light.error;
+    job->report.cut_off = job->report.cut_off || r->cut_off;
     if (r->limited && (e->rms > goal || e->p99 > ALPI_P99_LIMIT * goal)) {
-        r->job->report.light_bounded = true;
+        job->report.light_bounded = true;
     }
-    alpi_light_warn(r->job, &r->map.over_scale, r->cut_off, r->most_rays, r->direct.most);
+    alpi_light_warn(job, e, r->cut_off, r->rays.most, r->direct.most);
     return ALP_OK;
 }
 
-static alp_result run_rounds(alpi_light_round_state *r)
+alp_result alpi_light_run_rounds(alpi_light_rounds *r)
 {
-    ALP_TRY(begin(r));
-    if (!alpi_light_has_rounds(&r->job->options)) {
+    alpi_light_bake *light = r->light;
+    ALP_TRY(run_first(r));
+    if (!light->settings.in_rounds) {
         return ALP_OK;
     }
-    alp_result result = go_on(r);
+    alp_result result = run_others(r);
     if (result == ALP_ERROR_CANCELLED && may_be_dropped(r)) {
         r->cut_off = true;
-        r->task->clock->ended = true; // asked again it would cancel what it wanted kept
-        result = measure(r);
+        light->clock->ended = true; // the callback would cancel what is kept
+        result = alpi_light_measure(r, light->order, light->count);
     }
     if (result == ALP_OK) {
-        const bool ended = r->task->clock->ended;
-        r->task->clock->ended = true; // there are whole rounds, too late to lose them
+        const bool ended = light->clock->ended;
+        light->clock->ended = true; // whole rounds must not be lost now
         result = warn_of_error(r);
-        r->task->clock->ended = ended;
+        light->clock->ended = ended;
     }
     return result;
 }
 
-// --- the end -------------------------------------------------------------------------------------
+// --- memory --------------------------------------------------------------------------------------
 
-/// What only rounds need.
-static void release_rounds(alpi_light_round_state *r)
+void alpi_light_rounds_trim(alpi_light_rounds *r)
 {
-    alp_context *context = r->job->context;
-    alpi_release(context, r->fresh);
-    alpi_release(context, r->fresh_skies);
-    alpi_release(context, r->fresh_directional);
-    alpi_release(context, r->direct.counts);
-    alpi_release(context, r->between);
-    alpi_release(context, r->rays_of);
-    alpi_release(context, r->worst.marks);
-    alpi_release(context, r->worst.list);
-    alpi_release(context, r->held);
-    alpi_release(context, r->held_out);
-    r->between = NULL;
-    r->rays_of = NULL;
+    alp_context *context = r->light->job->context;
+    void *const arrays[] = {r->fresh.values,         r->fresh.skies,        r->fresh.directional,
+                            r->direct.counts,        r->rays.of_texels,     r->worst.marks,
+                            r->worst.list,           r->interpolated.marks, r->interpolated.means,
+                            r->interpolated.held_out};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        alpi_release(context, arrays[i]);
+    }
+    r->fresh = (alpi_light_fresh){0};
+    r->direct = (alpi_light_direct){0};
+    r->rays.of_texels = NULL;
     r->worst = (alpi_light_worst){0};
-    r->held = NULL;
-    r->held_out = NULL;
-    r->fresh_directional = NULL;
-    r->fresh = NULL;
-    r->fresh_skies = NULL;
-    r->direct.counts = NULL;
+    r->interpolated = (alpi_light_interpolated){0};
 }
 
-alp_result alpi_light_rounds(alpi_bake_job *job, alpi_light_task *task, const alpi_gatherer *fixed,
-                             alpi_radiosity *solution)
+void alpi_light_rounds_clear(alpi_light_rounds *r)
 {
-    alpi_light_round_state r = {.job = job, .task = task, .fixed = fixed, .solution = solution};
-    r.ray_limit = alpi_light_ray_limit(job, task->count);
-    alp_result result = run_rounds(&r);
-    release_rounds(&r);
-    if (result == ALP_OK && job->options.light.denoise) {
-        result = alpi_light_denoise(job, task, r.skies);
-    }
-    if (result == ALP_OK) {
-        result = alpi_light_sum(job, task, solution, (const float(*)[3])r.skies,
-                                alpi_light_round_solved_share(&r));
-    }
-    alpi_release(job->context, r.skies);
-    alpi_release(job->context, r.states);
-    return result;
+    alpi_light_rounds_trim(r);
+    alpi_release(r->light->job->context, r->skies);
+    alpi_release(r->light->job->context, r->states);
+    r->skies = NULL;
+    r->states = NULL;
 }

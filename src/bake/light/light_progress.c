@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Who is asked while light is gathered: the user, and the clock; and how far all of it is, over
-// loops that each begin at nothing.
-#include "bake/light/light.h"
+#include "bake/light/light_progress.h"
 
 #include "base/tasks.h"
 
 #include <math.h>
 #include <string.h>
 
-// What a loop may be of what is left of its part, where a part is made of loops one after another
-// and nobody knows how many.
+/// Share of the rest of its part that a loop takes, as a guess: the number of loops is unknown.
 static const double LOOP_SHARE = 0.5;
-// Nobody knows before a round whether it is the last.
-static const double MOST_TOLD = 0.99;
-/// Seconds that are left at least while the error decides whether another round follows.
+/// The most progress before the end: the number of rounds is unknown.
+static const double MOST_REPORTED = 0.99;
+/// Seconds left, at least, while the error decides whether another round follows.
 static const double LEAST_LEFT = 1.0;
 
 alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
@@ -46,7 +43,7 @@ bool alpi_light_clock_is_late(const alpi_light_clock *c)
     return alpi_seconds() >= c->deadline;
 }
 
-/// Takes how far the loop is that runs; one that is less far than it was is the next one.
+/// Notes the progress of the loop. A loop whose progress falls is the next one.
 static void follow(alpi_light_clock *c, double loop)
 {
     if (loop < c->loop) {
@@ -64,28 +61,28 @@ bool alpi_light_clock_goes_on(void *user, const alp_progress *progress)
     if (c->ended) {
         return true;
     }
-    alp_progress told = *progress;
-    if (strcmp(told.stage, c->stage) == 0) {
-        if (told.done > 0 && told.total > 0) {
-            follow(c, fmin((double)told.done / (double)told.total, 1.0));
+    alp_progress all = *progress;
+    if (strcmp(all.stage, c->stage) == 0) {
+        if (all.done > 0 && all.total > 0) {
+            follow(c, fmin((double)all.done / (double)all.total, 1.0));
         }
         const double now = alpi_seconds(), elapsed = now - c->part_began;
         double left =
             c->share > 0.0 ? elapsed * ((1.0 - c->share) / c->share + c->after / c->share) : -1.0;
-        if (left >= 0.0 && c->may_go_on) { // another round may follow, and nobody knows
+        if (left >= 0.0 && c->may_go_on) {
             left = fmax(left, LEAST_LEFT);
         }
         if (c->until_deadline || left > c->deadline - now) {
             left = fmax(c->deadline - now, 0.0);
         }
-        const double all = now - c->began + left;
-        const double share = left >= 0.0 && all > 0.0 ? (now - c->began) / all : 0.0;
-        c->told = fmax(c->told, fmin(share, MOST_TOLD));
-        told.done = (uint64_t)(c->told * UNITS);
-        told.total = UNITS;
-        told.seconds_left = left;
+        const double whole = now - c->began + left;
+        const double share = left >= 0.0 && whole > 0.0 ? (now - c->began) / whole : 0.0;
+        c->reported = fmax(c->reported, fmin(share, MOST_REPORTED));
+        all.done = (uint64_t)(c->reported * UNITS);
+        all.total = UNITS;
+        all.seconds_left = left;
     }
-    if (c->callback != NULL && !c->callback(c->user, &told)) {
+    if (c->callback != NULL && !c->callback(c->user, &all)) {
         c->refused = true;
     }
     return !c->refused && !alpi_light_clock_is_late(c);
