@@ -118,28 +118,29 @@ static bool run_radiosity_with(const bench_question *question, const alp_light_o
     job.options.light.lighting = *question->light;
     job.options.occlusion.seed = question->seed;
     uint32_t *order = bench_allocate(receivers.count, sizeof *order);
-    alpi_light_task task = {.lighting = question->lighting,
-                            .tracer = scene->tracer,
-                            .receivers = &receivers,
-                            .order = order,
-                            .lattice = &question->map->lattice};
     const alpi_task_progress silent = {.stage = "light"};
     alpi_light_clock clock = alpi_light_clock_start(&job, &silent);
-    task.progress = (alpi_task_progress){
-        .callback = alpi_light_clock_goes_on, .user = &clock, .stage = silent.stage};
-    task.clock = &clock;
+    alpi_light_bake bake = {
+        .job = &job,
+        .clock = &clock,
+        .progress = {.callback = alpi_light_clock_goes_on, .user = &clock, .stage = silent.stage},
+        .lighting = question->lighting,
+        .tracer = scene->tracer,
+        .receivers = &receivers,
+        .order = order,
+        .lattice = &question->map->lattice};
     for (uint32_t i = 0; i < receivers.count; i++) {
         const uint32_t texel = question->map->lattice.order[i];
         if (!question->map->validity.dropped[texel]) {
-            order[task.count++] = texel;
+            order[bake.count++] = texel;
         }
     }
-    const bool good = bench_good(scene, alpi_bake_radiosity(&job, &task));
+    const bool good = bench_good(scene, alpi_light_radiosity(&bake));
     for (uint32_t i = 0; i < question->count && good; i++) {
-        values[i] = task.values[question->list[i]];
+        values[i] = bake.values[question->list[i]];
     }
     free(order);
-    alpi_release(scene->context, task.values);
+    alpi_release(scene->context, bake.values);
     return good;
 }
 

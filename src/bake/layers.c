@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Layers of light: their names, the light that each gathers, and their pages.
+// The plan of layers: which lights each has, its name, and its pages.
 #include "bake/layers.h"
 
 #include "base/memory.h"
-#include "maps/radiosity/bounced_again.h"
 #include "transport/direct/direct.h"
 
 #include <ctype.h>
@@ -173,86 +172,7 @@ void alpi_bake_release_layers(alpi_bake_job *job)
     *plan = (alpi_layer_plan){0};
 }
 
-// --- light ---------------------------------------------------------------------------------------
-
-alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
-{
-    alpi_layer_plan *plan = &job->layers;
-    plan->light.part_layers = plan->part_layers;
-    plan->light.sky = sky ? plan->sky : ALPI_NONE;
-    return job->options.light.layers ? &plan->light : NULL;
-}
-
-static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution,
-                              alpi_bounced_again *again, const uint32_t *had, uint32_t rays,
-                              const alpi_task_progress *progress)
-{
-    const alpi_bounced_options *o = &again->options;
-    for (uint32_t layer = 0; layer < job->layers.light.count; layer++) {
-        float(*bounced)[3] = job->layers.light.bounced[layer];
-        ALP_TRY(alpi_radiosity_show(solution, layer, NULL, progress));
-        ALP_TRY(alpi_bounced_again_gather(again, progress));
-        for (uint32_t i = 0; i < o->count; i++) {
-            const uint32_t t = o->order[i];
-            const double before = had != NULL ? had[t] : 0.0;
-            const float b = (float)(rays / (before + rays));
-            for (int k = 0; k < 3; k++) {
-                bounced[t][k] += b * (o->gather->values[t].mean[k] - bounced[t][k]);
-            }
-        }
-    }
-    job->report.rays += again->rays;
-    return alpi_radiosity_show(solution, ALPI_NONE, NULL, progress);
-}
-
-alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
-                                   const alpi_bounced_options *options, const alpi_lattice *lattice,
-                                   uint8_t *states, const uint32_t *had, uint32_t rays,
-                                   const alpi_task_progress *progress)
-{
-    if (job->layers.light.count == 0) {
-        return ALP_OK;
-    }
-    alpi_gather_scene from = *options->gather->from;
-    from.sky = false; // its light is known, by the same rays
-    alpi_gather_job gather = *options->gather;
-    gather.from = &from;
-    gather.skies = NULL;
-    gather.values = ALPI_NEW(job->context, alpi_reference_value, lattice->texels->count);
-    if (gather.values == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    alpi_bounced_options own = *options;
-    own.gather = &gather;
-    alpi_bounced_again again = {0};
-    alp_result result = alpi_bounced_again_create(&own, lattice, states,
-                                                  solution->options.kept_limit, progress, &again);
-    if (result == ALP_OK) {
-        result = gather_each(job, solution, &again, had, rays, progress);
-    }
-    alpi_bounced_again_destroy(&again);
-    alpi_release(job->context, gather.values);
-    return result;
-}
-
-void alpi_bake_sum_layers(const alpi_bake_job *job, const uint32_t *order, uint32_t count,
-                          const float (*skies)[3], bool direct, alpi_reference_value *values)
-{
-    const alpi_light_layers *l = &job->layers.light;
-    for (uint32_t i = 0; job->options.light.layers && i < count; i++) {
-        const uint32_t t = order[i];
-        for (int k = 0; k < 3; k++) {
-            float sum = 0.0f;
-            for (uint32_t layer = 0; layer < l->count; layer++) {
-                float *value = &l->bounced[layer][t][k];
-                const float sky = skies != NULL && layer == l->sky ? skies[t][k] : 0.0f;
-                *value += direct ? l->direct[layer][t][k] + sky : 0.0f;
-                sum += *value;
-            }
-            values[t].mean[k] = sum;
-        }
-    }
-}
+// --- pages ---------------------------------------------------------------------------------------
 
 alp_result alpi_bake_store_layers(alpi_bake_job *job)
 {

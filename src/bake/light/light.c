@@ -10,9 +10,9 @@
 #include "bake/light/light.h"
 
 #include "bake/gathering.h"
-#include "bake/layers.h"
 #include "bake/light/light_denoise.h"
 #include "bake/light/light_error.h"
+#include "bake/light/light_layers.h"
 #include "bake/light/light_rounds.h"
 #include "bake/light/light_samples.h"
 #include "bake/settings.h"
@@ -59,7 +59,7 @@ static alp_result solve_on_map(alpi_light_bake *light, const alpi_light_gatherer
     options.directional = light->directional != NULL;
     options.kept_limit = UINT64_MAX;
     options.seed = o->occlusion.seed;
-    options.layers = alpi_bake_light_layers(job, options.direct != options.lighting);
+    options.layers = alpi_light_find_layers(job, options.direct != options.lighting);
     ALP_TRY(alpi_radiosity_solve(&options, light->lattice, job->lightmap->atlas, light->order,
                                  light->count, &light->progress, &s->own));
     s->radiosity = &s->own;
@@ -190,8 +190,7 @@ static alp_result join(alpi_light_bake *light, const alpi_light_rounds *r)
     ALP_TRY(
         alpi_parallel_for(job->context, light->count, TEXELS_PER_RANGE, keep_parts, &parts, NULL));
     ALP_TRY(alpi_light_join(light, r->solution, skies, alpi_light_solved_share(r), light->values));
-    alpi_bake_sum_layers(job, light->order, light->count, skies,
-                         job->options.light.direct != ALP_DIRECT_OFF, light->values);
+    alpi_light_sum_layers(light, skies, job->options.light.direct != ALP_DIRECT_OFF);
     return ALP_OK;
 }
 

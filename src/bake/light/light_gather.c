@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bake/light/light_gather.h"
 
-#include "bake/layers.h"
+#include "bake/light/light_layers.h"
 #include "bake/settings.h"
 #include "base/random.h"
 #include "base/tasks.h"
@@ -159,6 +159,5 @@ alp_result alpi_light_gather(alpi_light_rounds *r, uint32_t rays, const alpi_lig
     job->report.rays += report.rays;
     r->rays.sent += (double)report.rays * (1.0 + job->layers.light.count);
     job->report.light_rounds++;
-    return alpi_bake_gather_layers(job, r->solution, &options, light->lattice, states,
-                                   r->rays.of_texels, sent, &light->progress);
+    return alpi_light_gather_layers(r, &options, states, sent);
 }

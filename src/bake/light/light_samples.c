@@ -8,7 +8,7 @@
 // for all noisy texels.
 #include "bake/light/light_samples.h"
 
-#include "bake/layers.h"
+#include "bake/light/light_layers.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
@@ -45,7 +45,7 @@ alp_result alpi_light_sample_all(alpi_light_bake *light)
     ALPI_TRY_NEW(job->context, light->values, texels);
     alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = light->values, .directional = light->directional};
-    alpi_light_layers *layers = alpi_bake_light_layers(job, false);
+    alpi_light_layers *layers = alpi_light_find_layers(job, false);
     if (layers != NULL) {
         ALP_TRY(alpi_light_layers_reserve(layers, texels, 0, texels));
         output.groups = layers->direct;
@@ -54,7 +54,7 @@ alp_result alpi_light_sample_all(alpi_light_bake *light)
     ALP_TRY(alpi_direct_create(&options, &direct));
     const alp_result result = alpi_direct_irradiance(direct, light->receivers, light->order,
                                                      light->count, &light->progress, &output);
-    alpi_bake_sum_layers(job, light->order, light->count, NULL, true, light->values);
+    alpi_light_sum_layers(light, NULL, true);
     job->report.light_samples = alpi_direct_samples(direct);
     job->report.rays += output.rays;
     alpi_direct_destroy(direct);
@@ -300,33 +300,16 @@ static void find_scale(share_job *job)
 
 // --- sampling ------------------------------------------------------------------------------------
 
-/// Direct light of layers is averaged in place: its samples are added to `had / more` times the
-/// mean before, then the sum is scaled to the mean (`merged`).
-static void scale_layers(const share_job *job, uint32_t count, uint32_t more, bool merged)
-{
-    const alpi_light_layers *l = &job->direct->light->job->layers.light;
-    for (uint32_t layer = 0; layer < l->count; layer++) {
-        for (uint32_t i = 0; i < count; i++) {
-            const uint32_t t = job->some[i];
-            const double had = job->direct->counts[t];
-            const float factor = (float)(merged ? more / (had + more) : had / more);
-            for (int k = 0; k < 3; k++) {
-                l->direct[layer][t][k] *= factor;
-            }
-        }
-    }
-}
-
 /// Samples the texels of one class.
 static alp_result sample_class(const share_job *job, uint32_t count, uint32_t more)
 {
     alpi_light_direct *d = job->direct;
     const uint64_t seed = alpi_hash64(alpi_hash64(job->goal->seed) + more);
     alpi_direct_output output = {.values = d->fresh, .directional = d->fresh_directional};
-    scale_layers(job, count, more, false);
+    alpi_light_scale_layers(d, job->some, count, more, false);
     ALP_TRY(alpi_radiosity_direct(d->solution, job->some, count, more, seed, &d->light->progress,
                                   &output));
-    scale_layers(job, count, more, true);
+    alpi_light_scale_layers(d, job->some, count, more, true);
     d->light->job->report.rays += output.rays;
     d->drawn += (double)count * more;
     for (uint32_t i = 0; i < count; i++) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The 99th percentile of the errors of light: rounds go on until it is small enough too.
-#include "bake/light/light_error.h"
+#include "bake/light/light_gather.h"
+#include "bake/light/light_plan.h"
+#include "bake/light/light_samples.h"
 #include "maps/lightmap.h"
 #include "test_scenes.h"
 

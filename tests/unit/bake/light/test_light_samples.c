@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // More samples of direct light, dealt out to the texels of a floor beside a box's shadow.
-#include "bake/light/light_direct.h"
+#include "bake/light/light_samples.h"
 #include "base/memory.h"
 #include "test_radiant.h"
 
@@ -30,7 +30,7 @@ typedef struct stage {
     test_radiant r;
     alpi_receivers receivers;
     alpi_bake_job job;
-    alpi_light_task task;
+    alpi_light_bake light;
     alpi_light_direct direct;
 } stage;
 
@@ -49,21 +49,21 @@ static void start(uint32_t workers, stage *s)
     test_radiant_open(make_scene(s->context), &o, &s->r);
     s->receivers = alpi_texels_receivers(&s->r.texels);
     s->job.context = s->context;
-    s->task = (alpi_light_task){.receivers = &s->receivers,
-                                .order = s->r.lattice.order,
-                                .count = s->r.texels.count,
-                                .lattice = &s->r.lattice};
-    s->direct = (alpi_light_direct){.job = &s->job,
-                                    .task = &s->task,
+    s->light = (alpi_light_bake){.job = &s->job,
+                                 .receivers = &s->receivers,
+                                 .order = s->r.lattice.order,
+                                 .count = s->r.texels.count,
+                                 .lattice = &s->r.lattice};
+    s->direct = (alpi_light_direct){.light = &s->light,
                                     .solution = &s->r.solution,
                                     .values = s->r.solution.direct,
                                     .most = FIRST,
                                     .limit = 65536.0,
                                     .power = 0.6};
-    s->direct.fresh = ALPI_NEW(s->context, alpi_reference_value, s->task.count);
-    s->direct.counts = ALPI_NEW(s->context, uint32_t, s->task.count);
+    s->direct.fresh = ALPI_NEW(s->context, alpi_reference_value, s->light.count);
+    s->direct.counts = ALPI_NEW(s->context, uint32_t, s->light.count);
     assert_true(s->direct.fresh != NULL && s->direct.counts != NULL);
-    for (uint32_t t = 0; t < s->task.count; t++) {
+    for (uint32_t t = 0; t < s->light.count; t++) {
         s->direct.counts[t] = FIRST;
     }
 }
@@ -80,17 +80,17 @@ static void finish(stage *s)
 static double find_error(const stage *s)
 {
     double sum = 0.0;
-    for (uint32_t t = 0; t < s->task.count; t++) {
+    for (uint32_t t = 0; t < s->light.count; t++) {
         const float *v = s->direct.values[t].variance;
         sum += ((double)v[0] + (double)v[1] + (double)v[2]) / 3.0;
     }
-    return sqrt(sum / s->task.count);
+    return sqrt(sum / s->light.count);
 }
 
 static uint64_t count_dealt(const stage *s)
 {
     uint64_t sum = 0;
-    for (uint32_t t = 0; t < s->task.count; t++) {
+    for (uint32_t t = 0; t < s->light.count; t++) {
         sum += s->direct.counts[t] - FIRST;
     }
     return sum;
@@ -99,11 +99,11 @@ static uint64_t count_dealt(const stage *s)
 static bool deal(stage *s, alpi_light_goal goal)
 {
     bool dealt = false;
-    ASSERT_OK(s->context, alpi_light_more_direct(&s->direct, &goal, &dealt));
+    ASSERT_OK(s->context, alpi_light_add_samples(&s->direct, &goal, &dealt));
     return dealt;
 }
 
-/// What is foreseen comes, about: the noisy get more, those in full light or shade nothing.
+/// What is predicted comes, about: the noisy get more, those in full light or shade nothing.
 TEST(noise_comes_down_to_what_is_wanted)
 {
     static stage s;
@@ -111,12 +111,12 @@ TEST(noise_comes_down_to_what_is_wanted)
     const double first = find_error(&s), wanted = 0.2 * first;
     assert_true(deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
     const double then = find_error(&s);
-    print_message("%.4g to %.4g, wanted %.4g, foreseen %.4g, %.1f samples a texel\n", first, then,
-                  wanted, s.direct.foreseen, (double)count_dealt(&s) / s.task.count);
-    assert_true(s.direct.foreseen <= wanted && s.direct.foreseen > 0.8 * wanted);
-    ASSERT_NEAR(then / s.direct.foreseen, 1.0, 0.25);
+    print_message("%.4g to %.4g, wanted %.4g, predicted %.4g, %.1f samples a texel\n", first, then,
+                  wanted, s.direct.predicted, (double)count_dealt(&s) / s.light.count);
+    assert_true(s.direct.predicted <= wanted && s.direct.predicted > 0.8 * wanted);
+    ASSERT_NEAR(then / s.direct.predicted, 1.0, 0.25);
     uint32_t least = UINT32_MAX, most = 0;
-    for (uint32_t t = 0; t < s.task.count; t++) {
+    for (uint32_t t = 0; t < s.light.count; t++) {
         least = s.direct.counts[t] < least ? s.direct.counts[t] : least;
         most = s.direct.counts[t] > most ? s.direct.counts[t] : most;
     }
@@ -132,13 +132,13 @@ TEST(some_texels_count_alone)
     static stage s;
     start(1, &s);
     const double wanted = 0.2 * find_error(&s);
-    uint8_t *among = ALPI_NEW(s.context, uint8_t, s.task.count);
+    uint8_t *among = ALPI_NEW(s.context, uint8_t, s.light.count);
     assert_non_null(among);
     assert_false(
         deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
     assert_true(count_dealt(&s) == 0);
     uint32_t noisiest = 0;
-    for (uint32_t t = 0; t < s.task.count; t++) {
+    for (uint32_t t = 0; t < s.light.count; t++) {
         const bool more = s.direct.values[t].variance[0] > s.direct.values[noisiest].variance[0];
         noisiest = more ? t : noisiest;
     }
@@ -146,7 +146,7 @@ TEST(some_texels_count_alone)
     assert_true(
         deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
     uint32_t got = 0;
-    for (uint32_t t = 0; t < s.task.count; t++) {
+    for (uint32_t t = 0; t < s.light.count; t++) {
         got += s.direct.counts[t] > FIRST;
     }
     assert_true(s.direct.counts[noisiest] > FIRST && got <= 9);
@@ -162,13 +162,13 @@ TEST(workers_change_nothing)
         start(workers[i], &s[i]);
         const double wanted = 0.3 * find_error(&s[i]);
         assert_true(deal(&s[i], (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
-        const size_t count = s[0].task.count;
-        assert_int_equal(s[i].task.count, count);
+        const size_t count = s[0].light.count;
+        assert_int_equal(s[i].light.count, count);
         assert_memory_equal(s[i].direct.values, s[0].direct.values,
                             count * sizeof *s[0].direct.values);
         assert_memory_equal(s[i].direct.counts, s[0].direct.counts,
                             count * sizeof *s[0].direct.counts);
-        assert_true(s[i].direct.foreseen == s[0].direct.foreseen);
+        assert_true(s[i].direct.predicted == s[0].direct.predicted);
     }
     for (int i = 0; i < 3; i++) {
         finish(&s[i]);
@@ -178,8 +178,8 @@ TEST(workers_change_nothing)
 /// Values of the first round stay as they are, to the bit.
 static void expect_nothing(stage *s, alpi_light_goal goal)
 {
-    const size_t size = s->task.count * sizeof *s->direct.values;
-    alpi_reference_value *before = ALPI_NEW(s->context, alpi_reference_value, s->task.count);
+    const size_t size = s->light.count * sizeof *s->direct.values;
+    alpi_reference_value *before = ALPI_NEW(s->context, alpi_reference_value, s->light.count);
     assert_non_null(before);
     memcpy(before, s->direct.values, size);
     assert_false(deal(s, goal));
@@ -217,7 +217,7 @@ TEST(limits_hold)
     assert_int_equal(s.direct.most, 40); // in eights
     finish(&s);
     start(1, &s);
-    const double most = 16.0 * s.task.count;
+    const double most = 16.0 * s.light.count;
     assert_true(deal(&s, (alpi_light_goal){.wanted = wanted, .most = most, .seed = 5}));
     const double dealt = (double)count_dealt(&s);
     assert_true(dealt <= most && dealt > 0.5 * most);
@@ -227,7 +227,7 @@ TEST(limits_hold)
 static uint32_t count_above(const stage *s, double error)
 {
     uint32_t above = 0;
-    for (uint32_t t = 0; t < s->task.count; t++) {
+    for (uint32_t t = 0; t < s->light.count; t++) {
         above += (double)s->direct.values[t].variance[0] > error * error;
     }
     return above;
@@ -247,7 +247,7 @@ TEST(each_comes_to_what_is_wanted)
         assert_true(deal(&s, goal));
     }
     const uint32_t after = count_above(&s, 1.2 * wanted);
-    print_message("%u of %u texels too noisy, then %u\n", before, s.task.count, after);
+    print_message("%u of %u texels too noisy, then %u\n", before, s.light.count, after);
     assert_true(before > 100 && after < before / 20);
     finish(&s);
 }

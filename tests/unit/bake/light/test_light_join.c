@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is stated of light beyond what its own rays tell: the noise of the solution that they meet.
-#include "bake/light/light.h"
+// Direct and bounced light joined, with the noise of the solution that rays read.
+#include "bake/light/light_error.h"
 
 #include "base/memory.h"
 #include "test_support.h"
@@ -49,16 +49,16 @@ TEST(of_each_texel)
     const float skies[TEXELS][3] = {{1.0f, 3.0f, 0.0f}, {0, 0, 0}, {0, 0, 0}};
     const uint32_t order[2] = {0, 2};
     alpi_reference_value whole[TEXELS] = {{{0.0f}, {0.0f}}};
-    const alpi_light_task task = {.order = order, .count = 2, .values = values};
+    alpi_bake_job job = {.context = test_context(1), .options = alp_bake_options_default()};
+    const alpi_light_bake light = {.job = &job, .order = order, .count = 2, .values = values};
     solved s;
     solve(&s, UINT32_MAX);
-    alpi_bake_job job = {.context = test_context(1), .options = alp_bake_options_default()};
     job.options.light.direct = ALP_DIRECT_OFF;
-    ASSERT_OK(job.context, alpi_light_peek(&job, &task, &s.solution, skies, 0.5, whole));
+    ASSERT_OK(job.context, alpi_light_join(&light, &s.solution, skies, 0.5, whole));
     ASSERT_NEAR(whole[0].variance[0], 0.75, 1e-6);
     assert_true(whole[0].variance[1] == 0.0f);
     ASSERT_NEAR(whole[0].variance[2], 0.25, 1e-6);
-    ASSERT_OK(job.context, alpi_light_peek(&job, &task, &s.solution, NULL, 0.5, whole));
+    ASSERT_OK(job.context, alpi_light_join(&light, &s.solution, NULL, 0.5, whole));
     ASSERT_NEAR(whole[0].variance[0], 1.5, 1e-6);
     alp_context_destroy(job.context);
     for (int k = 0; k < 3; k++) {
@@ -66,19 +66,18 @@ TEST(of_each_texel)
     }
 }
 
-/// What is stored is what a peek shows, by ranges of many texels: direct light added or left out,
-/// and told apart.
-TEST(the_sum_is_what_a_peek_shows)
+/// Light joined in place is light joined apart, over ranges of many texels, with direct light and
+/// without.
+TEST(light_is_joined_in_place)
 {
     enum { MANY = 9000 };
-    static const alp_direct ways[3] = {ALP_DIRECT_ON, ALP_DIRECT_OFF, ALP_DIRECT_APART};
     static alpi_reference_value values[MANY], direct[MANY], whole[MANY];
     static float skies[MANY][3];
     static uint32_t order[MANY];
     solved s;
     solve(&s, UINT32_MAX);
     s.solution.direct = direct;
-    for (int way = 0; way < 3; way++) {
+    for (int on = 0; on < 2; on++) {
         for (uint32_t i = 0; i < MANY; i++) {
             const float x = (float)i;
             values[i] = (alpi_reference_value){{x + 3, x + 2, x + 1}, {1, x, 0}};
@@ -86,26 +85,16 @@ TEST(the_sum_is_what_a_peek_shows)
             skies[i][0] = skies[i][1] = 1.0f;
             order[i] = MANY - 1 - i;
         }
-        const alpi_receivers receivers = {.count = MANY};
-        const alpi_light_task task = {
-            .receivers = &receivers, .order = order, .count = MANY, .values = values};
         alpi_bake_job job = {.context = test_context(2), .options = alp_bake_options_default()};
-        job.options.maps = ALP_MAP_LIGHT;
-        job.options.light.direct = ways[way];
-        ASSERT_OK(job.context,
-                  alpi_light_peek(&job, &task, &s.solution, (const float(*)[3])skies, 0.5, whole));
-        ASSERT_OK(job.context,
-                  alpi_light_sum(&job, &task, &s.solution, (const float(*)[3])skies, 0.5));
+        job.options.light.direct = on != 0 ? ALP_DIRECT_ON : ALP_DIRECT_OFF;
+        const alpi_light_bake light = {
+            .job = &job, .order = order, .count = MANY, .values = values};
+        const float(*sky)[3] = (const float(*)[3])skies;
+        ASSERT_OK(job.context, alpi_light_join(&light, &s.solution, sky, 0.5, whole));
+        ASSERT_OK(job.context, alpi_light_join(&light, &s.solution, sky, 0.5, values));
         assert_memory_equal(values, whole, sizeof values);
-        ASSERT_NEAR(values[4].mean[0], ways[way] == ALP_DIRECT_OFF ? 6.0 : 15.0, 1e-6);
-        ASSERT_NEAR(values[4].variance[0], 10.0 + (ways[way] == ALP_DIRECT_OFF ? 0.0 : 4.0), 1e-6);
-        assert_true((job.direct != NULL) == (ways[way] == ALP_DIRECT_APART));
-        for (uint32_t i = 0; i < MANY && job.direct != NULL; i++) {
-            ASSERT_NEAR(job.direct[i][0], 2.0 * i + 1.0, 1e-6);
-            ASSERT_NEAR(job.bounced[i][0], i + 2.0, 1e-6);
-        }
-        alpi_release(job.context, job.direct);
-        alpi_release(job.context, job.bounced);
+        ASSERT_NEAR(values[4].mean[0], on != 0 ? 15.0 : 6.0, 1e-6);
+        ASSERT_NEAR(values[4].variance[0], on != 0 ? 14.0 : 10.0, 1e-6);
         alp_context_destroy(job.context);
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The first round of light sends the rays that its error asks for: a few texels try before how
 // noisy it is.
-#include "bake/light/light_rays.h"
+#include "bake/light/light_gather.h"
 #include "test_scenes.h"
 
 TEST_CONTEXT(2);
