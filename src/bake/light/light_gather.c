@@ -14,7 +14,7 @@
 /// (patch_reach.h). On teapot-room at 1 %, 2 and 4 took longer and had no smaller error.
 static const float NEAR_REACH = 1.0f;
 /// Bounces of such a path, with the ray that hit: in corners it meets near surfaces again. 8 gain
-/// no accuracy on windows (docs/how/light.md, "Near surfaces").
+/// no accuracy on windows (docs/how/light.md, "Near rays").
 enum { NEAR_BOUNCES = 4 };
 
 // --- rays ----------------------------------------------------------------------------------------
