@@ -4,7 +4,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "maps/texels/occlusion_map.h"
+#include "bake/occlusion/occlusion_rounds.h"
 #include "maps/texels/validity.h"
 
 #include <stdio.h>

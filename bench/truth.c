@@ -84,17 +84,23 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
                 float accuracy, const bench_truth *truth, bench_result *result)
 {
     const alpi_receivers receivers = alpi_texels_receivers(&map->texels);
-    const alpi_occlusion_map_options how = {
-        .near = map->validity.near, .accuracy = accuracy, .deadline = HUGE_VAL};
     float *errors = bench_allocate(map->texels.count, sizeof *errors);
+    alpi_occlusion_setup setup;
+    const alpi_occlusion_task task = {.setup = &setup,
+                                      .receivers = &receivers,
+                                      .order = map->lattice.order,
+                                      .count = map->texels.count,
+                                      .near = map->validity.near,
+                                      .lattice = &map->lattice,
+                                      .errors = errors,
+                                      .accuracy = accuracy,
+                                      .deadline = HUGE_VAL};
     memset(map->lattice.states, 0, map->texels.count);
     *result = (bench_result){0};
     const double started = alpi_seconds();
-    alpi_occlusion_setup setup;
     alp_result code = alpi_occlusion_prepare(scene->scene, scene->tracer, options, &setup);
     if (code == ALP_OK) {
-        code = alpi_occlusion_map(&setup, &receivers, map->lattice.order, map->texels.count, &how,
-                                  &map->lattice, errors, &result->report);
+        code = alpi_occlusion_rounds(&task, &result->report);
         alpi_occlusion_release(&setup);
     }
     result->seconds = alpi_seconds() - started;

@@ -16,7 +16,7 @@ void bench_truth_close(bench_truth *truth);
 
 /// A map as the bake makes it, and how far it is from the truth.
 typedef struct bench_result {
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     double seconds, rmse, largest, bias;
     double z_mean, z_spread; // of error / stated error
 } bench_result;

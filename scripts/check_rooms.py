@@ -70,7 +70,8 @@ SUB_ROOMS = {
     },
     "fields": {".": [], "ambient": ["."], "probes": ["."], "ambience": ["."],
                "propagation": ["."]},
-    "bake": {".": [], "light": ["."], "files": ["."], "estimate": ["files", "light", "."]},
+    "bake": {".": [], "occlusion": ["."], "light": ["."], "files": ["."],
+             "estimate": ["files", "light", "."]},
 }
 
 # public header: the lowest room that may include it, which stands for it in the law

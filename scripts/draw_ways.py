@@ -11,11 +11,11 @@ import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-WIDTH, BOX, GAP, HEIGHT, ROW, COLUMNS = 150, 40, 22, 70, 134, 5
+WIDTH, BOX, GAP, HEIGHT, ROW = 150, 40, 22, 70, 134
 
-# way: steps in their order: (words, file below src/)
+# way: boxes of a row, and steps in their order: (words, file below src/)
 WAYS = {
-    "light": [
+    "light": (5, [
         ("file to scene", "formats/load.c"),
         ("scene to texels", "bake/bake_atlas.c"),
         ("rays, valid texels", "bake/bake_receivers.c"),
@@ -30,15 +30,43 @@ WAYS = {
         ("texels to pages", "bake/bake_store.c"),
         ("seams", "bake/bake_seams.c"),
         ("map and asset", "bake/files/outputs.c"),
-    ],
+    ]),
+    "occlusion": (4, [
+        ("file to scene", "formats/load.c"),
+        ("scene to texels", "bake/bake_atlas.c"),
+        ("rays, valid texels", "bake/bake_receivers.c"),
+        ("objects", "bake/objects.c"),
+        ("next round", "bake/occlusion/occlusion_plan.c"),
+        ("traced, interpolated", "bake/occlusion/occlusion_lattice.c"),
+        ("rays of texels", "bake/occlusion/occlusion_samples.c"),
+        ("stated error", "bake/occlusion/occlusion_error.c"),
+        ("texels to pages", "bake/bake_store.c"),
+        ("seams", "bake/bake_seams.c"),
+        ("map and asset", "bake/files/outputs.c"),
+    ]),
+    "atlas": (5, [
+        ("file to scene", "formats/load.c"),
+        ("neighbours", "scene/adjacency.c"),
+        ("regions", "atlas/regions.c"),
+        ("cuts at folds", "atlas/fold.c"),
+        ("charts", "atlas/charts.c"),
+        ("merged charts", "atlas/merge.c"),
+        ("density", "atlas/layout.c"),
+        ("packing", "atlas/pack.c"),
+        ("texels", "atlas/raster.c"),
+        ("the bake", "bake/bake.c"),
+    ]),
 }
 # way: steps of one row from and to which a round goes back, and its file
-LOOPS = {"light": ("stated error", "pilot, next round", "rounds: light_rounds.c")}
+LOOPS = {
+    "light": ("stated error", "pilot, next round", "rounds: light_rounds.c"),
+    "occlusion": ("stated error", "next round", "rounds: occlusion_rounds.c"),
+}
 
 
-def box(index, words, file):
+def box(index, columns, words, file):
     """One step, at its place in rows that are read from the left."""
-    x, y = GAP + index % COLUMNS * (WIDTH + GAP), 12 + index // COLUMNS * ROW
+    x, y = GAP + index % columns * (WIDTH + GAP), 12 + index // columns * ROW
     folder, name = file.rsplit("/", 1)
     parts = [
         f'<rect x="{x}" y="{y}" width="{WIDTH}" height="{BOX}" rx="6"/>',
@@ -67,21 +95,21 @@ def loop(begin, end, words):
             f'<text class="file" x="{middle}" y="{y - 19}">{html.escape(words)}</text>')
 
 
-def draw(way, steps):
+def draw(way, columns, steps):
     """The picture of one way."""
     lines, places = [], {}
     for index, (words, file) in enumerate(steps):
         if not (ROOT / "src" / file).exists():
             raise SystemExit(f"draw_ways: {way}: src/{file} does not exist")
-        parts, places[words] = box(index, words, file)
+        parts, places[words] = box(index, columns, words, file)
         lines += parts
     order = [words for words, _ in steps]
     lines += [arrow(places[a], places[b]) for a, b in zip(order, order[1:])]
     if way in LOOPS:
         begin, end, words = LOOPS[way]
         lines.append(loop(places[begin], places[end], words))
-    width = GAP + min(COLUMNS, len(steps)) * (WIDTH + GAP)
-    height = 12 + (len(steps) - 1) // COLUMNS * ROW + HEIGHT + 12
+    width = GAP + min(columns, len(steps)) * (WIDTH + GAP)
+    height = 12 + (len(steps) - 1) // columns * ROW + HEIGHT + 12
     style = ("text{font:13px sans-serif;text-anchor:middle;fill:#222}"
              ".file{font:11px monospace}.folder{font:10px monospace;fill:#666}"
              "rect{fill:#fff4dc;stroke:#b98a2f}path{fill:none;stroke:#555;stroke-width:1.5;"
@@ -99,9 +127,9 @@ def draw(way, steps):
 
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs" / "pictures"
-    for way, steps in WAYS.items():
+    for way, (columns, steps) in WAYS.items():
         path = folder / f"way-{way}.svg"
-        path.write_text(draw(way, steps), encoding="utf-8")
+        path.write_text(draw(way, columns, steps), encoding="utf-8")
         print(path)
 
 

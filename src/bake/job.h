@@ -7,7 +7,6 @@
 #include "maps/lightmap.h"
 #include "maps/radiosity/light_layers.h"
 #include "maps/texels/lattice.h"
-#include "maps/texels/occlusion_map.h"
 #include "maps/texels/scratch.h"
 #include "maps/texels/validity.h"
 #include "transport/directional.h"
@@ -80,7 +79,6 @@ typedef struct alpi_gathering {
     const alpi_object *open; // the object that the next three belong to; NULL: none
     alpi_tracer *tracer, *owned;
     alpi_occlusion_setup setup;
-    alpi_occlusion_map_report occlusion; // of all objects so far
 } alpi_gathering;
 
 typedef struct alpi_bake_job {

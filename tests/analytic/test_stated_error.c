@@ -4,7 +4,7 @@
 // the map and of each other: E[(x − y₁)(x − y₂)] is the squared error of x without their own.
 #include "test_support.h"
 
-#include "maps/texels/occlusion_map.h"
+#include "bake/occlusion/occlusion_rounds.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -65,16 +65,22 @@ static void close_case(alp_context *context, map_case *m)
 static void bake(alp_context *context, map_case *m, uint32_t samples, uint64_t seed, float accuracy)
 {
     const alpi_receivers receivers = alpi_texels_receivers(&m->texels);
-    const alpi_occlusion_map_options how = {.accuracy = accuracy, .deadline = HUGE_VAL};
     alp_occlusion_options options = alp_occlusion_options_default();
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     alpi_occlusion_setup setup;
+    const alpi_occlusion_task task = {.setup = &setup,
+                                      .receivers = &receivers,
+                                      .order = m->lattice.order,
+                                      .count = m->texels.count,
+                                      .lattice = &m->lattice,
+                                      .errors = m->errors,
+                                      .accuracy = accuracy,
+                                      .deadline = HUGE_VAL};
     options.samples = samples;
     options.seed = seed;
     memset(m->lattice.states, 0, m->texels.count);
     ASSERT_OK(context, alpi_occlusion_prepare(m->scene, m->tracer, &options, &setup));
-    ASSERT_OK(context, alpi_occlusion_map(&setup, &receivers, m->lattice.order, m->texels.count,
-                                          &how, &m->lattice, m->errors, &report));
+    ASSERT_OK(context, alpi_occlusion_rounds(&task, &report));
     alpi_occlusion_release(&setup);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Bent normals of a map: interpolated ones are as good as traced ones.
+#include "bake/occlusion/occlusion_rounds.h"
 #include "base/context.h"
 #include "base/tasks.h"
 #include "maps/texels/bent.h"
-#include "maps/texels/occlusion_map.h"
 #include "maps/texels/validity.h"
 #include "test_scenes.h"
 
@@ -62,15 +62,19 @@ static void run(map_setup *s, uint32_t samples, uint64_t seed, float accuracy, f
     alpi_validity validity;
     ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, &s->lattice,
                                                s->lattice.order, s->texels.count, NULL, &validity));
-    const alpi_occlusion_map_options map = {.near = validity.near,
-                                            .accuracy = accuracy,
-                                            .error = error,
-                                            .deadline = HUGE_VAL,
-                                            .bent = s->bent};
-    alpi_occlusion_map_report report;
-    ASSERT_OK(s->context,
-              alpi_occlusion_map(&setup, &s->receivers, s->lattice.order, s->texels.count, &map,
-                                 &s->lattice, s->errors, &report));
+    const alpi_occlusion_task task = {.setup = &setup,
+                                      .receivers = &s->receivers,
+                                      .order = s->lattice.order,
+                                      .count = s->texels.count,
+                                      .near = validity.near,
+                                      .lattice = &s->lattice,
+                                      .errors = s->errors,
+                                      .bent = s->bent,
+                                      .accuracy = accuracy,
+                                      .error = error,
+                                      .deadline = HUGE_VAL};
+    alpi_occlusion_report report;
+    ASSERT_OK(s->context, alpi_occlusion_rounds(&task, &report));
     alpi_validity_destroy(&validity);
     alpi_occlusion_release(&setup);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which texels are traced and with how many samples, on maps whose every value is chosen: receivers
 // of a texel lie above a floor, where all is open, or just below it, where nothing is.
+#include "bake/occlusion/occlusion_rounds.h"
 #include "base/context.h"
 #include "base/random.h"
-#include "maps/texels/occlusion_map.h"
 #include "test_scenes.h"
 
 #include <math.h>
@@ -69,8 +69,9 @@ static void tear_down(painting *s)
     alp_context_destroy(s->context);
 }
 
-static alp_result run(painting *s, const alpi_occlusion_map_options *options,
-                      alpi_occlusion_map_report *report)
+/// @param options accuracy and what ends the rounds
+static alp_result run(painting *s, const alpi_occlusion_task *options,
+                      alpi_occlusion_report *report)
 {
     alpi_tracer *tracer = NULL;
     alpi_occlusion_setup setup;
@@ -78,8 +79,14 @@ static alp_result run(painting *s, const alpi_occlusion_map_options *options,
     ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, tracer, &s->options, &setup));
     memset(s->lattice.states, 0, s->texels.count);
     memset(s->lattice.values, 0, s->texels.count * sizeof *s->lattice.values);
-    alp_result result = alpi_occlusion_map(&setup, &s->receivers, s->lattice.order, s->texels.count,
-                                           options, &s->lattice, s->errors, report);
+    alpi_occlusion_task task = *options;
+    task.setup = &setup;
+    task.receivers = &s->receivers;
+    task.order = s->lattice.order;
+    task.count = s->texels.count;
+    task.lattice = &s->lattice;
+    task.errors = s->errors;
+    alp_result result = alpi_occlusion_rounds(&task, report);
     alpi_occlusion_release(&setup);
     return result;
 }
@@ -102,9 +109,8 @@ TEST(thin_shadows_are_followed)
     enum { X = 24, Y = 24, LENGTH = 8 };
     painting s;
     set_up(&s);
-    const alpi_occlusion_map_options options = {.accuracy = ALP_ADAPTIVE_AUTO,
-                                                .deadline = HUGE_VAL};
-    alpi_occlusion_map_report bare, report;
+    const alpi_occlusion_task options = {.accuracy = ALP_ADAPTIVE_AUTO, .deadline = HUGE_VAL};
+    alpi_occlusion_report bare, report;
     ASSERT_OK(s.context, run(&s, &options, &bare));
     s.paints[texel_at(&s, X, Y)] = DARK;
     for (uint32_t i = 0; i < LENGTH; i++) {
@@ -135,8 +141,8 @@ TEST(the_worst_hundredth_asks_for_more)
         s.paints[texel_at(&s, 24 + i % 8, 24 + i / 8)] = MIXED;
     }
     s.options.samples = 1 << 14;
-    alpi_occlusion_map_report first, report;
-    alpi_occlusion_map_options options = {
+    alpi_occlusion_report first, report;
+    alpi_occlusion_task options = {
         .accuracy = ALP_ADAPTIVE_OFF, .error = 1.0f, .deadline = HUGE_VAL};
     ASSERT_OK(s.context, run(&s, &options, &first));
     print_message("%u samples: rms %.5f, p99 %.5f\n", first.samples, first.relative, first.p99);
@@ -181,14 +187,14 @@ TEST(what_is_cut_off_is_filled_whatever_its_contrast)
         s.paints[t] = (uint8_t)(alpi_hash32(t) % 3);
     }
     uint32_t cut_off = 0, filled = 0;
-    alpi_occlusion_map_report report = {.cut_off = true};
+    alpi_occlusion_report report = {.cut_off = true};
     for (int calls = 1; report.cut_off; calls++) {
         int left = calls;
-        const alpi_occlusion_map_options options = {.accuracy = ALP_ADAPTIVE_AUTO,
-                                                    .deadline = HUGE_VAL,
-                                                    .keep_partial = true,
-                                                    .progress = stop_after,
-                                                    .progress_user = &left};
+        const alpi_occlusion_task options = {.accuracy = ALP_ADAPTIVE_AUTO,
+                                             .deadline = HUGE_VAL,
+                                             .keep_partial = true,
+                                             .progress = stop_after,
+                                             .progress_user = &left};
         const alp_result result = run(&s, &options, &report);
         if (result == ALP_OK && report.cut_off) {
             assert_nothing_left_that_could_be_filled(&s);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The stage of occlusion: traces the objects one by one, and fills the report. Its rounds, and with
-// them the next rays, are decided in maps/texels/occlusion_map.c.
+// The stage of occlusion: gathers the objects one by one, joins their errors, finds the mean, and
+// fills the report.
 #include "bake/bake_stages.h"
 
 #include "bake/gathering.h"
+#include "bake/occlusion/occlusion_rounds.h"
 #include "bake/settings.h"
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -12,38 +13,42 @@
 #include <math.h>
 #include <stdio.h>
 
-// --- one object ----------------------------------------------------------------------------------
+// --- objects -------------------------------------------------------------------------------------
 
 static alp_result trace_object(alpi_bake_job *job, const alpi_object *object,
-                               const alpi_task_progress *progress,
-                               alpi_occlusion_map_report *report)
+                               const alpi_task_progress *progress, alpi_occlusion_report *report)
 {
     alpi_gathering *g = &job->gathering;
     const alp_sampling_options *s = &job->options.sampling;
     ALP_TRY(alpi_gathering_open_object(job, object, progress));
     const alpi_receivers receivers = alpi_texels_receivers(&job->lightmap->texels);
-    const alpi_occlusion_map_options options = {.near = g->validity.near,
-                                                .accuracy = s->accuracy,
-                                                .error = s->error,
-                                                .deadline = alpi_gathering_deadline(job),
-                                                .keep_partial = s->keep_partial,
-                                                .bent = job->bent,
-                                                .scratch = &g->scratch,
-                                                .progress = progress->callback,
-                                                .progress_user = progress->user};
-    return alpi_occlusion_map(&g->setup, &receivers, object->valid, object->valid_count, &options,
-                              &g->lattice, job->lightmap->errors, report);
+    const alpi_occlusion_task task = {.setup = &g->setup,
+                                      .receivers = &receivers,
+                                      .order = object->valid,
+                                      .count = object->valid_count,
+                                      .near = g->validity.near,
+                                      .lattice = &g->lattice,
+                                      .errors = job->lightmap->errors,
+                                      .bent = job->bent,
+                                      .scratch = &g->scratch,
+                                      .accuracy = s->accuracy,
+                                      .error = s->error,
+                                      .deadline = alpi_gathering_deadline(job),
+                                      .keep_partial = s->keep_partial,
+                                      .progress = progress->callback,
+                                      .progress_user = progress->user};
+    return alpi_occlusion_rounds(&task, report);
 }
 
-static void add_report(alpi_occlusion_map_report *all, const alpi_occlusion_map_report *one)
+static void add_to_report(alp_bake_report *all, const alpi_occlusion_report *one)
 {
     all->rays += one->rays;
     all->traced += one->traced;
     all->interpolated += one->interpolated;
     all->unknown += one->unknown;
-    all->samples = one->samples > all->samples ? one->samples : all->samples;
-    all->relative = one->relative;
-    all->p99 = one->p99;
+    all->ao_samples = one->samples > all->ao_samples ? one->samples : all->ao_samples;
+    all->ao_relative_error = one->relative;
+    all->ao_p99_error = one->p99;
     all->cut_off = all->cut_off || one->cut_off;
 }
 
@@ -52,37 +57,34 @@ static void add_report(alpi_occlusion_map_report *all, const alpi_occlusion_map_
 static alp_result add_object(alpi_bake_job *job, alpi_object *object,
                              const alpi_task_progress *progress)
 {
-    alpi_occlusion_map_report *all = &job->gathering.occlusion;
-    alpi_occlusion_map_report one = {.unknown = object->texel_count};
+    alp_bake_report *all = &job->report;
+    alpi_occlusion_report one = {.unknown = object->texel_count};
     if (!all->cut_off) {
         const alp_result result = trace_object(job, object, progress, &one);
         const bool by_user = result == ALP_ERROR_CANCELLED && job->options.sampling.keep_partial;
         const bool by_clock = result == ALP_ERROR_LIMIT && one.cut_off; // not another limit
         if ((by_user || by_clock) && all->traced > 0) {
-            one = (alpi_occlusion_map_report){.unknown = object->texel_count, .cut_off = true};
+            one = (alpi_occlusion_report){.unknown = object->texel_count, .cut_off = true};
         } else {
             ALP_TRY(result);
         }
     }
     object->samples = one.samples;
-    add_report(all, &one);
+    add_to_report(all, &one);
     return ALP_OK;
 }
 
 /// Finds the stated error of all objects together.
 static alp_result join_errors(alpi_bake_job *job, const alpi_task_progress *progress)
 {
-    const alpi_gathering *g = &job->gathering;
-    alpi_occlusion_map_report *all = &job->gathering.occlusion;
-    all->relative = all->p99 = (double)NAN;
-    if (all->cut_off) { // an object without its first round has no error
-        return ALP_OK;
+    const alpi_lattice *l = &job->gathering.lattice;
+    alpi_relative_error relative = {.rms = (double)NAN, .p99 = (double)NAN};
+    if (!job->report.cut_off) { // else an object without its first round has no error
+        ALP_TRY(alpi_find_relative_error(l, job->lightmap->errors, l->order, l->texels->count,
+                                         progress, &relative));
     }
-    alpi_relative_error relative;
-    ALP_TRY(alpi_find_relative_error(&g->lattice, job->lightmap->errors, g->lattice.order,
-                                     g->lattice.texels->count, progress, &relative));
-    all->relative = relative.rms;
-    all->p99 = relative.p99;
+    job->report.ao_relative_error = relative.rms;
+    job->report.ao_p99_error = relative.p99;
     return ALP_OK;
 }
 
@@ -109,7 +111,7 @@ static alp_result find_area_mean(const alpi_lattice *lattice, double *mean)
     return ALP_OK;
 }
 
-static void warn_of_error(const alpi_bake_job *job, bool cut_off)
+static void warn_of_error(const alpi_bake_job *job)
 {
     const alp_bake_report *r = &job->report;
     const double wanted = (double)job->options.sampling.error;
@@ -117,7 +119,7 @@ static void warn_of_error(const alpi_bake_job *job, bool cut_off)
     if (isfinite(r->ao_relative_error)) {
         snprintf(error, sizeof error, "%.2g %%", 100.0 * r->ao_relative_error);
     }
-    if (cut_off) {
+    if (r->cut_off) {
         alpi_warn(job->context, "cut-off", job->scene->name,
                   "sampling was cut off after a round of %u rays per texel; the error is %s, %llu "
                   "texels have no value of their own, and another run gives other bits",
@@ -130,27 +132,15 @@ static void warn_of_error(const alpi_bake_job *job, bool cut_off)
     }
 }
 
-static alp_result fill_report(alpi_bake_job *job)
-{
-    const alpi_occlusion_map_report *map = &job->gathering.occlusion;
-    alp_bake_report *r = &job->report;
-    r->rays += map->rays;
-    r->ao_samples = map->samples;
-    r->traced = map->traced;
-    r->interpolated = map->interpolated;
-    r->unknown = map->unknown;
-    r->ao_relative_error = map->relative;
-    r->ao_p99_error = map->p99;
-    r->cut_off = map->cut_off;
-    ALP_TRY(find_area_mean(&job->gathering.lattice, &r->ao_mean));
-    alpi_bake_warn_of_darkness(job);
-    warn_of_error(job, map->cut_off);
-    return ALP_OK;
-}
+// --- the stage -----------------------------------------------------------------------------------
 
 alp_result alpi_bake_occlusion(alpi_bake_job *job)
 {
     const uint32_t texels = job->lightmap->texels.count;
+    const alpi_object_stage stage = {.name = "occlusion",
+                                     .rays = (uint64_t)texels * job->options.occlusion.samples,
+                                     .each = add_object,
+                                     .join = join_errors};
     if (!alpi_bake_wants_occlusion(&job->options)) {
         return ALP_OK;
     }
@@ -158,10 +148,9 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     if ((job->options.maps & ALP_MAP_BENT) != 0) {
         ALPI_TRY_NEW(job->context, job->bent, texels);
     }
-    const alpi_object_stage stage = {.name = "occlusion",
-                                     .rays = (uint64_t)texels * job->options.occlusion.samples,
-                                     .each = add_object,
-                                     .join = join_errors};
     ALP_TRY(alpi_gathering_run(job, &stage));
-    return fill_report(job);
+    ALP_TRY(find_area_mean(&job->gathering.lattice, &job->report.ao_mean));
+    alpi_bake_warn_of_darkness(job);
+    warn_of_error(job);
+    return ALP_OK;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which texels are traced, when it stops, and whether what it says of its error is true.
+#include "bake/occlusion/occlusion_rounds.h"
 #include "base/context.h"
 #include "base/tasks.h"
-#include "maps/texels/occlusion_map.h"
-#include "maps/texels/stated_error.h"
 #include "maps/texels/validity.h"
 #include "test_scenes.h"
 
@@ -52,8 +51,9 @@ static void tear_down(map_setup *s)
     alp_context_destroy(s->context);
 }
 
-static alp_result run(map_setup *s, const alpi_occlusion_map_options *options,
-                      alpi_lattice *lattice, alpi_occlusion_map_report *report)
+/// @param options accuracy and what ends the rounds
+static alp_result run(map_setup *s, const alpi_occlusion_task *options, alpi_lattice *lattice,
+                      alpi_occlusion_report *report)
 {
     alpi_occlusion_setup setup;
     ASSERT_OK(s->context, alpi_lattice_create(s->atlas, &s->texels, lattice));
@@ -61,10 +61,15 @@ static alp_result run(map_setup *s, const alpi_occlusion_map_options *options,
     alpi_validity validity;
     ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, lattice,
                                                lattice->order, s->texels.count, NULL, &validity));
-    alpi_occlusion_map_options near_too = *options;
-    near_too.near = validity.near;
-    alp_result result = alpi_occlusion_map(&setup, &s->receivers, lattice->order, s->texels.count,
-                                           &near_too, lattice, s->errors, report);
+    alpi_occlusion_task task = *options;
+    task.setup = &setup;
+    task.receivers = &s->receivers;
+    task.order = lattice->order;
+    task.count = s->texels.count;
+    task.near = validity.near;
+    task.lattice = lattice;
+    task.errors = s->errors;
+    alp_result result = alpi_occlusion_rounds(&task, report);
     alpi_validity_destroy(&validity);
     alpi_occlusion_release(&setup);
     return result;
@@ -75,8 +80,8 @@ static void find_truth(map_setup *s)
     alp_occlusion_options options = s->options;
     alpi_occlusion_setup setup;
     alpi_lattice lattice; // a first run finds which strata are valid, with as many rays as you like
-    alpi_occlusion_map_report report;
-    const alpi_occlusion_map_options once = {.accuracy = ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
+    alpi_occlusion_report report;
+    const alpi_occlusion_task once = {.accuracy = ALP_ADAPTIVE_OFF, .deadline = HUGE_VAL};
     s->options.samples = 4;
     ASSERT_OK(s->context, run(s, &once, &lattice, &report));
     alpi_lattice_destroy(&lattice);
@@ -109,11 +114,11 @@ static double mean_of(const map_setup *s)
 
 /// Bakes with some seeds: one small map has too few held-out texels to be judged alone.
 /// @param report of the last; stated and rmse are root mean squares over the seeds
-static void judge(map_setup *s, float accuracy, alpi_occlusion_map_report *report, double *stated,
+static void judge(map_setup *s, float accuracy, alpi_occlusion_report *report, double *stated,
                   double *rmse)
 {
     enum { SEEDS = 6 };
-    const alpi_occlusion_map_options options = {.accuracy = accuracy, .deadline = HUGE_VAL};
+    const alpi_occlusion_task options = {.accuracy = accuracy, .deadline = HUGE_VAL};
     double stated_squares = 0.0, squares = 0.0;
     for (s->options.seed = 0; s->options.seed < SEEDS; s->options.seed++) {
         alpi_lattice lattice;
@@ -132,7 +137,7 @@ TEST_SLOW(interpolation_saves_rays_and_no_truth)
     set_up(&s, 2, "builtin:torus-plane");
     find_truth(&s);
     double rmse[2], stated[2];
-    alpi_occlusion_map_report reports[2];
+    alpi_occlusion_report reports[2];
     for (int adaptive = 0; adaptive < 2; adaptive++) {
         judge(&s, adaptive ? ALP_ADAPTIVE_AUTO : ALP_ADAPTIVE_OFF, &reports[adaptive],
               &stated[adaptive], &rmse[adaptive]);
@@ -166,10 +171,10 @@ TEST(interpolated_texels_hold_the_value_of_their_stencil)
     map_setup s;
     set_up(&s, 2, "builtin:cornell"); // where the flood traces among what is interpolated
     s.options.samples = 1024;
-    const alpi_occlusion_map_options options = {
+    const alpi_occlusion_task options = {
         .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.001f, .deadline = HUGE_VAL};
     alpi_lattice lattice;
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
     uint32_t compared = 0;
     for (uint32_t t = 0; t < s.texels.count; t++) {
@@ -197,10 +202,10 @@ TEST(any_number_of_workers_gives_the_same_map)
         map_setup s;
         set_up(&s, workers[w], "builtin:teapot-room");
         s.options.samples = 1024;
-        const alpi_occlusion_map_options options = {
+        const alpi_occlusion_task options = {
             .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.02f, .deadline = HUGE_VAL};
         alpi_lattice lattice;
-        alpi_occlusion_map_report report;
+        alpi_occlusion_report report;
         ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
         if (w == 0) {
             count = s.texels.count;
@@ -226,10 +231,10 @@ TEST_SLOW(rounds_stop_at_the_wanted_error)
     uint64_t rays = 0;
     for (int i = 0; i < 2; i++) {
         const double wanted = i == 0 ? 0.02 : 0.005;
-        const alpi_occlusion_map_options options = {
+        const alpi_occlusion_task options = {
             .accuracy = ALP_ADAPTIVE_AUTO, .error = (float)wanted, .deadline = HUGE_VAL};
         alpi_lattice lattice;
-        alpi_occlusion_map_report report;
+        alpi_occlusion_report report;
         ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
         assert_true(report.relative <= wanted && report.p99 <= 4.0 * wanted);
         assert_true(report.samples < s.options.samples && report.rays > rays);
@@ -239,10 +244,10 @@ TEST_SLOW(rounds_stop_at_the_wanted_error)
     }
     // Too few rays allowed: it ends there, with its error stated.
     s.options.samples = 64;
-    const alpi_occlusion_map_options options = {
+    const alpi_occlusion_task options = {
         .accuracy = ALP_ADAPTIVE_AUTO, .error = 0.001f, .deadline = HUGE_VAL};
     alpi_lattice lattice;
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
     assert_true(report.relative > 0.001 && report.samples == 64);
     alpi_lattice_destroy(&lattice);
@@ -252,10 +257,10 @@ TEST_SLOW(rounds_stop_at_the_wanted_error)
 /// Stated error of all samples of each texel, in one go or in rounds. @param values out: [texels]
 static double trace_all(map_setup *s, bool rounds, float *values)
 {
-    const alpi_occlusion_map_options options = {
+    const alpi_occlusion_task options = {
         .accuracy = ALP_ADAPTIVE_OFF, .error = rounds ? 1e-4f : 0.0f, .deadline = HUGE_VAL};
     alpi_lattice lattice;
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     ASSERT_OK(s->context, run(s, &options, &lattice, &report));
     assert_int_equal(report.samples, s->options.samples);
     for (uint32_t t = 0; t < s->texels.count; t++) {
@@ -308,13 +313,13 @@ TEST(what_is_cut_off_keeps_what_it_has)
     set_up(&s, 2, "builtin:cornell");
     s.options.samples = 1 << 18;
     int left = 3;
-    alpi_occlusion_map_options options = {.accuracy = ALP_ADAPTIVE_OFF,
-                                          .deadline = HUGE_VAL,
-                                          .keep_partial = true,
-                                          .progress = stop_after,
-                                          .progress_user = &left};
+    alpi_occlusion_task options = {.accuracy = ALP_ADAPTIVE_OFF,
+                                   .deadline = HUGE_VAL,
+                                   .keep_partial = true,
+                                   .progress = stop_after,
+                                   .progress_user = &left};
     alpi_lattice lattice;
-    alpi_occlusion_map_report report;
+    alpi_occlusion_report report;
     ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
     assert_true(report.cut_off);
     assert_int_equal(report.traced + report.interpolated + report.unknown, s.texels.count);
@@ -324,38 +329,10 @@ TEST(what_is_cut_off_keeps_what_it_has)
     assert_int_equal(run(&s, &options, &lattice, &report), ALP_ERROR_CANCELLED);
     alpi_lattice_destroy(&lattice);
     // A deadline: rounds as far as they come, each texel with a value of its own after the first.
-    options = (alpi_occlusion_map_options){.accuracy = ALP_ADAPTIVE_OFF,
-                                           .deadline = alpi_seconds() + 0.4};
+    options = (alpi_occlusion_task){.accuracy = ALP_ADAPTIVE_OFF, .deadline = alpi_seconds() + 0.4};
     ASSERT_OK(s.context, run(&s, &options, &lattice, &report));
     assert_true(report.cut_off);
     assert_true(report.samples < s.options.samples);
     alpi_lattice_destroy(&lattice);
     tear_down(&s);
-}
-
-static int ascending(const void *a, const void *b)
-{
-    return *(const float *)a < *(const float *)b ? -1 : *(const float *)a > *(const float *)b;
-}
-
-TEST_WITH_CONTEXT(percentiles_are_those_of_a_sort, 1)
-{
-    enum { COUNT = 1000 };
-    float values[COUNT], sorted[COUNT];
-    uint32_t order[COUNT];
-    for (uint32_t i = 0; i < COUNT; i++) {
-        values[i] = i % 7 == 0 ? 0.0f : (float)(i * 37 % 1009) * 1e-4f;
-        sorted[i] = values[i];
-        order[i] = COUNT - 1 - i;
-    }
-    qsort(sorted, COUNT, sizeof *sorted, ascending);
-    const double shares[] = {0.0, 0.1, 0.5, 0.99, 1.0};
-    for (int i = 0; i < 5; i++) {
-        double value = -1.0;
-        ASSERT_OK(context, alpi_percentile(context, values, order, COUNT, shares[i], &value));
-        ASSERT_NEAR(value, sorted[(int)(shares[i] * (COUNT - 1))], 0.0);
-    }
-    double none = -1.0;
-    ASSERT_OK(context, alpi_percentile(context, values, order, 0, 0.99, &none));
-    ASSERT_NEAR(none, 0.0, 0.0);
 }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// The rounds: trace, measure the error, plan the next round.
+#include "bake/occlusion/occlusion_rounds.h"
+
+#include "bake/occlusion/occlusion_state.h"
+#include "base/memory.h"
+#include "maps/texels/bent.h"
+
+#include <math.h>
+
+enum { TEXELS_PER_RANGE = 1 << 12 };
+
+// --- loops over the texels of the task -----------------------------------------------------------
+
+alp_result alpi_occlusion_for_texels(alpi_occlusion_state *state, alpi_task_fn *body, void *user)
+{
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
+    return alpi_parallel_for(state->task->setup->context, state->task->count, TEXELS_PER_RANGE,
+                             body, user, &progress);
+}
+
+alp_result alpi_occlusion_sum_texels(alpi_occlusion_state *state, alpi_sum_fn *body,
+                                     const void *user, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
+    return alpi_parallel_sum(state->task->setup->context, state->task->count, body, user, &progress,
+                             sums);
+}
+
+typedef struct mark_job {
+    const alpi_occlusion_state *state;
+    alpi_occlusion_rule *rule;
+} mark_job;
+
+static alp_result mark_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const mark_job *job = user;
+    const alpi_occlusion_task *task = job->state->task;
+    for (uint32_t i = begin; i < end; i++) {
+        job->state->marked[task->order[i]] = job->rule(task, task->order[i]);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_occlusion_mark(alpi_occlusion_state *state, alpi_occlusion_rule *rule)
+{
+    mark_job job = {state, rule};
+    return alpi_occlusion_for_texels(state, mark_range, &job);
+}
+
+// --- rounds --------------------------------------------------------------------------------------
+
+static alp_result trace_round(alpi_occlusion_state *state)
+{
+    if (state->before > 0) {
+        ALP_TRY(alpi_occlusion_trace_more(state));
+    }
+    return state->task->accuracy == ALP_ADAPTIVE_OFF ? alpi_occlusion_trace_all(state)
+                                                     : alpi_occlusion_trace_lattice(state);
+}
+
+static alp_result trace_rounds(alpi_occlusion_state *state)
+{
+    uint32_t samples = alpi_occlusion_first_samples(state->task);
+    while (samples > 0) {
+        state->before = state->samples;
+        state->samples = samples;
+        ALP_TRY(trace_round(state));
+        state->report->samples = samples;
+        ALP_TRY(alpi_occlusion_measure_error(state));
+        samples = alpi_occlusion_next_samples(state->task, state->report);
+    }
+    return ALP_OK;
+}
+
+// --- the map -------------------------------------------------------------------------------------
+
+/// Clamps the overshoots of cubic stencils, and counts the texels of each state.
+static void clamp_and_count(const void *user, uint32_t begin, uint32_t end,
+                            double counts[ALPI_SUM_LIMIT])
+{
+    const alpi_occlusion_state *state = user;
+    const alpi_lattice *lattice = state->task->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = state->task->order[i];
+        lattice->values[t] = fminf(fmaxf(lattice->values[t], 0.0f), 1.0f);
+        counts[lattice->states[t]] += 1.0;
+    }
+}
+
+static alp_result finish(alpi_occlusion_state *state, bool late)
+{
+    const alpi_occlusion_task *task = state->task;
+    alpi_occlusion_report *report = state->report;
+    double counts[ALPI_SUM_LIMIT];
+    ALP_TRY(alpi_occlusion_sum_texels(state, clamp_and_count, state, counts));
+    report->traced = (uint64_t)counts[ALPI_TEXEL_TRACED];
+    report->interpolated = (uint64_t)counts[ALPI_TEXEL_INTERPOLATED];
+    report->unknown = (uint64_t)counts[ALPI_TEXEL_OPEN];
+    if (report->cut_off && report->traced == 0) {
+        return alpi_fail(task->setup->context, late ? ALP_ERROR_LIMIT : ALP_ERROR_CANCELLED,
+                         "sampling ended before any texel had a value; allow more time");
+    }
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
+    return task->bent == NULL ? ALP_OK
+                              : alpi_bent_normals(task->lattice, &state->scratch->sums, task->order,
+                                                  task->count, &progress, task->bent);
+}
+
+static alp_result run(alpi_occlusion_state *state)
+{
+    const alpi_occlusion_task *task = state->task;
+    alp_context *context = task->setup->context;
+    ALPI_TRY_NEW(context, state->list, task->count);
+    ALP_TRY(alpi_chart_deal_open(context, task->lattice->texels->charts, task->order, task->count,
+                                 &state->deal));
+    state->marked = state->scratch->marks;
+    alp_result result = trace_rounds(state);
+    const bool late = !state->clock.cancelled && alpi_seconds() >= task->deadline;
+    if (result == ALP_ERROR_CANCELLED && (late || task->keep_partial)) {
+        state->report->cut_off = true;
+        result = alpi_occlusion_fill_gaps(state);
+    }
+    return result == ALP_OK ? finish(state, late) : result;
+}
+
+alp_result alpi_occlusion_rounds(const alpi_occlusion_task *task, alpi_occlusion_report *report)
+{
+    alp_context *context = task->setup->context;
+    alpi_scratch own = {0};
+    alpi_occlusion_state state = {.task = task,
+                                  .report = report,
+                                  .clock = alpi_occlusion_clock_start(task),
+                                  .scratch = task->scratch != NULL ? task->scratch : &own};
+    *report = (alpi_occlusion_report){.relative = (double)NAN, .p99 = (double)NAN};
+    if (task->scratch == NULL) {
+        ALP_TRY(alpi_scratch_create(context, task->receivers->count, task->setup->bent, &own));
+    }
+    const alp_result result = run(&state);
+    alpi_occlusion_held_out_destroy(&state.held_out);
+    alpi_scratch_destroy(&own);
+    alpi_chart_deal_close(&state.deal);
+    alpi_release(context, state.list);
+    return result;
+}
