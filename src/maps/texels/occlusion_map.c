@@ -201,7 +201,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     const map_job *job = user;
     const alpi_lattice_judge judge = {.lattice = job->lattice,
                                       .order = job->order,
-                                      .near = job->options->near,
+                                      .proximity = job->options->near,
                                       .wanted = job->wanted,
                                       .near_spread = NEAR_SPREAD,
                                       .near_bend = NEAR_BEND,

@@ -12,7 +12,7 @@
 
 /// When to stop, and what may be interpolated. See alp_sampling_options.
 typedef struct alpi_occlusion_map_options {
-    const uint8_t *near;   // [texels] alpi_nearness, or NULL
+    const uint8_t *near;   // [texels] alpi_proximity, or NULL
     float accuracy;        // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
     float error;           // wanted relative error; 0: all samples of the setup, in one round
     double deadline;       // in alpi_seconds(), HUGE_VAL = none

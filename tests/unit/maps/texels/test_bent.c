@@ -62,7 +62,7 @@ static void run(map_setup *s, uint32_t samples, uint64_t seed, float accuracy, f
     alpi_validity validity;
     ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, &s->lattice,
                                                s->lattice.order, s->texels.count, NULL, &validity));
-    const alpi_occlusion_map_options map = {.near = validity.near,
+    const alpi_occlusion_map_options map = {.near = validity.proximity,
                                             .accuracy = accuracy,
                                             .error = error,
                                             .deadline = HUGE_VAL,

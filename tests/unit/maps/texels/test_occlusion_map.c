@@ -62,7 +62,7 @@ static alp_result run(map_setup *s, const alpi_occlusion_map_options *options,
     ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, lattice,
                                                lattice->order, s->texels.count, NULL, &validity));
     alpi_occlusion_map_options near_too = *options;
-    near_too.near = validity.near;
+    near_too.near = validity.proximity;
     alp_result result = alpi_occlusion_map(&setup, &s->receivers, lattice->order, s->texels.count,
                                            &near_too, lattice, s->errors, report);
     alpi_validity_destroy(&validity);
