@@ -22,7 +22,7 @@ static alp_result trace_object(alpi_bake_job *job, const alpi_object *object,
     const alp_sampling_options *s = &job->options.sampling;
     ALP_TRY(alpi_gathering_open_object(job, object, progress));
     const alpi_receivers receivers = alpi_texels_receivers(&job->lightmap->texels);
-    const alpi_occlusion_map_options options = {.near = g->validity.near,
+    const alpi_occlusion_map_options options = {.near = g->validity.proximity,
                                                 .accuracy = s->accuracy,
                                                 .error = s->error,
                                                 .deadline = alpi_gathering_deadline(job),

@@ -3,7 +3,7 @@
 #include "bake/layers.h"
 
 #include "base/memory.h"
-#include "maps/radiosity/bounced_again.h"
+#include "maps/radiosity/regather.h"
 #include "transport/direct/direct.h"
 
 #include <ctype.h>
@@ -165,7 +165,7 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job)
 void alpi_bake_release_layers(alpi_bake_job *job)
 {
     alpi_layer_plan *plan = &job->layers;
-    alpi_light_layers_clear(&plan->light);
+    alpi_layer_arrays_clear(&plan->light);
     alpi_release(job->context, plan->part_layers);
     for (uint32_t i = 0; i < plan->light.count; i++) {
         alpi_release(job->context, plan->names[i]);
@@ -175,7 +175,7 @@ void alpi_bake_release_layers(alpi_bake_job *job)
 
 // --- light ---------------------------------------------------------------------------------------
 
-alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
+alpi_layer_arrays *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
 {
     alpi_layer_plan *plan = &job->layers;
     plan->light.part_layers = plan->part_layers;
@@ -184,14 +184,14 @@ alpi_light_layers *alpi_bake_light_layers(alpi_bake_job *job, bool sky)
 }
 
 static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution,
-                              alpi_bounced_again *again, const uint32_t *had, uint32_t rays,
+                              alpi_regather *again, const uint32_t *had, uint32_t rays,
                               const alpi_task_progress *progress)
 {
-    const alpi_bounced_options *o = &again->options;
+    const alpi_final_gather_options *o = &again->options;
     for (uint32_t layer = 0; layer < job->layers.light.count; layer++) {
         float(*bounced)[3] = job->layers.light.bounced[layer];
-        ALP_TRY(alpi_radiosity_show(solution, layer, NULL, progress));
-        ALP_TRY(alpi_bounced_again_gather(again, progress));
+        ALP_TRY(alpi_radiosity_relight(solution, layer, NULL, progress));
+        ALP_TRY(alpi_regather_run(again, progress));
         for (uint32_t i = 0; i < o->count; i++) {
             const uint32_t t = o->order[i];
             const double before = had != NULL ? had[t] : 0.0;
@@ -202,12 +202,13 @@ static alp_result gather_each(alpi_bake_job *job, const alpi_radiosity *solution
         }
     }
     job->report.rays += again->rays;
-    return alpi_radiosity_show(solution, ALPI_NONE, NULL, progress);
+    return alpi_radiosity_relight(solution, ALPI_NONE, NULL, progress);
 }
 
 alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *solution,
-                                   const alpi_bounced_options *options, const alpi_lattice *lattice,
-                                   uint8_t *states, const uint32_t *had, uint32_t rays,
+                                   const alpi_final_gather_options *options,
+                                   const alpi_lattice *lattice, uint8_t *states,
+                                   const uint32_t *had, uint32_t rays,
                                    const alpi_task_progress *progress)
 {
     if (job->layers.light.count == 0) {
@@ -222,15 +223,15 @@ alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *sol
     if (gather.values == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alpi_bounced_options own = *options;
+    alpi_final_gather_options own = *options;
     own.gather = &gather;
-    alpi_bounced_again again = {0};
-    alp_result result = alpi_bounced_again_create(&own, lattice, states,
-                                                  solution->options.kept_limit, progress, &again);
+    alpi_regather again = {0};
+    alp_result result =
+        alpi_regather_create(&own, lattice, states, solution->options.kept_limit, progress, &again);
     if (result == ALP_OK) {
         result = gather_each(job, solution, &again, had, rays, progress);
     }
-    alpi_bounced_again_destroy(&again);
+    alpi_regather_destroy(&again);
     alpi_release(job->context, gather.values);
     return result;
 }
@@ -238,7 +239,7 @@ alp_result alpi_bake_gather_layers(alpi_bake_job *job, const alpi_radiosity *sol
 void alpi_bake_sum_layers(const alpi_bake_job *job, const uint32_t *order, uint32_t count,
                           const float (*skies)[3], bool direct, alpi_reference_value *values)
 {
-    const alpi_light_layers *l = &job->layers.light;
+    const alpi_layer_arrays *l = &job->layers.light;
     for (uint32_t i = 0; job->options.light.layers && i < count; i++) {
         const uint32_t t = order[i];
         for (int k = 0; k < 3; k++) {
@@ -273,6 +274,6 @@ alp_result alpi_bake_store_layers(alpi_bake_job *job)
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])plan->light.bounced[i],
                                             &l->layer_pages[i]));
     }
-    alpi_light_layers_clear(&plan->light);
+    alpi_layer_arrays_clear(&plan->light);
     return ALP_OK;
 }

@@ -110,10 +110,10 @@ static alp_result gather_direct(alpi_bake_job *job, alpi_light_task *t)
     };
     alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = t->values, .directional = t->directional};
-    alpi_light_layers *layers = alpi_bake_light_layers(job, false);
+    alpi_layer_arrays *layers = alpi_bake_light_layers(job, false);
     if (layers != NULL) {
         const uint32_t texels = t->receivers->count;
-        ALP_TRY(alpi_light_layers_reserve(layers, texels, 0, texels));
+        ALP_TRY(alpi_layer_arrays_reserve(layers, texels, 0, texels));
         output.groups = layers->direct;
         output.part_groups = layers->part_layers;
     }

@@ -252,7 +252,7 @@ static void find_scale(direct_deal *deal)
 /// there is, and the sum, `merged`, made the mean.
 static void scale_layers(const direct_deal *deal, uint32_t count, uint32_t more, bool merged)
 {
-    const alpi_light_layers *l = &deal->direct->job->layers.light;
+    const alpi_layer_arrays *l = &deal->direct->job->layers.light;
     for (uint32_t layer = 0; layer < l->count; layer++) {
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t t = deal->some[i];

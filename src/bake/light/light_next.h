@@ -5,7 +5,7 @@
 
 #include "bake/light/light_direct.h"
 #include "bake/light/light_error.h"
-#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/final_gather.h"
 
 /// Replicates of a texel's rays, by whose spread their noise is known. The number of rays is a
 /// multiple of as many packets.
@@ -33,7 +33,7 @@ typedef struct alpi_light_round_state {
     double ray_limit;        // rays that light may take
     double sent;             // rays of bounced light so far, with those of layers
     uint32_t most_rays;      // of any texel so far
-    float factor;            // alpi_bounced_report, of the last round of all texels
+    float factor;            // alpi_final_gather_report, of the last round of all texels
     double sending;          // texels that send rays in a round of all; a guess before there is one
     double rays_power;       // of rays, that the error of bounced light falls with
     double ray_seconds;      // of a ray more of a texel that sends any

@@ -85,7 +85,7 @@ uint32_t alpi_light_block_rays(const alp_light_options *options, uint64_t texels
     }
     const double error = find_error(options);
     if (error == 0.0) { // rounds come first
-        return ALPI_RADIOSITY_BLOCK_RAYS;
+        return ALPI_RADIOSITY_PATCH_RAYS;
     }
     const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
     const double each = fmax(all * TEXELS_PER_BLOCK / fmax((double)texels, 1.0), about);
@@ -170,7 +170,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     options.scene = job->scene;
     options.tracer = t->tracer;
     options.lighting = t->lighting;
-    options.blocks.near = job->gathering.validity.near;
+    options.patch_rule.proximity = job->gathering.validity.proximity;
     options.direct = direct;
     options.direct_scene = g->counts ? &g->dark : NULL;
     options.counted = g->counts ? &g->texels : NULL;
@@ -189,7 +189,7 @@ static alp_result gather_light(alpi_bake_job *job, alpi_light_task *t, light_gat
     ALP_TRY(alpi_radiosity_solve(&options, t->lattice, job->lightmap->atlas, t->order, t->count,
                                  &t->progress, &solution));
     report_solution(job, &solution);
-    alpi_radiosity_settle(&solution, alpi_light_has_rounds(o));
+    alpi_radiosity_trim(&solution, alpi_light_has_rounds(o));
     alp_result result =
         alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL, &solution);
     if (result == ALP_OK) {
@@ -237,7 +237,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
                                      .seed = job->options.occlusion.seed};
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.atlas.size = job->options.atlas.size;
-    options.block_rays = alpi_light_block_rays(&job->options.light,
+    options.patch_rays = alpi_light_block_rays(&job->options.light,
                                                (uint64_t)options.atlas.size * options.atlas.size);
     options.direct_samples = find_direct_samples(&job->options.light);
     options.kept_limit = UINT64_MAX;
@@ -248,7 +248,7 @@ static alp_result gather_around(alpi_bake_job *job, alpi_light_task *t, const li
     alp_result result = light_texels(job, t, &around->radiosity);
     if (result == ALP_OK) {
         report_solution(job, &around->radiosity);
-        alpi_radiosity_settle(&around->radiosity, false);
+        alpi_radiosity_trim(&around->radiosity, false);
         result = alpi_light_rounds(job, t, g->texel_cube != NULL ? &g->texels : NULL,
                                    &around->radiosity);
     }

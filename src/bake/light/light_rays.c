@@ -89,13 +89,14 @@ alp_result alpi_light_show(const alpi_bake_job *job, const alpi_light_task *task
     const alpi_radiosity_options *o = &solution->options;
     const double by_block = (double)o->gatherer->packet_count * ALPI_PACKET;
     const double by_texels = (double)rays * (double)job->report.light_traced /
-                             fmax((double)solution->patches.block_count, 1.0);
+                             fmax((double)solution->patches.patch_count, 1.0);
     const bool finer = solution->texels == NULL && o->layers == NULL &&
                        o->bounces > ALPI_RADIOSITY_PASS_LIMIT && by_texels >= by_block;
     *noise = 1.0 / sqrt(finer ? by_texels : by_block);
     if (solution->texels != NULL) {
         return ALP_OK;
     }
-    ALP_TRY(alpi_radiosity_show(solution, ALPI_NONE, finer ? task->values : NULL, &task->progress));
+    ALP_TRY(
+        alpi_radiosity_relight(solution, ALPI_NONE, finer ? task->values : NULL, &task->progress));
     return alpi_patches_set_reach(&solution->patches, &task->progress);
 }

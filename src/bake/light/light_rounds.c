@@ -19,7 +19,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/final_gather.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,13 +68,13 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
     const bool all = r->worst.count == 0;
     const uint32_t rays = gather->gatherer->packet_count * ALPI_PACKET;
     uint8_t *states = all ? r->states : r->worst.marks;
-    alpi_bounced_options options = {
+    alpi_final_gather_options options = {
         .gather = gather,
-        .near = job->gathering.validity.near,
+        .proximity = job->gathering.validity.proximity,
         .adaptive = all && alpi_light_is_adaptive(&r->job->options),
         .straight = true,
         .held_out = all && (r->rays == 0 || r->held_out->count > 0) ? r->held_out : NULL,
-        .beside = beside,
+        .independent = beside,
         .joined = r->fixed == NULL,
         .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : t->lattice->values,
     };
@@ -83,9 +83,9 @@ static alp_result map_bounced(alpi_light_round_state *r, const alpi_gather_job *
         memset(states, 0, t->receivers->count);
     }
     // As in the round of all before.
-    alpi_bounced_report report = {.traced = job->report.light_traced, .factor = r->factor};
+    alpi_final_gather_report report = {.traced = job->report.light_traced, .factor = r->factor};
     const double began = alpi_seconds();
-    ALP_TRY(alpi_bounced_map(&options, t->lattice, &t->progress, states, &report));
+    ALP_TRY(alpi_final_gather(&options, t->lattice, &t->progress, states, &report));
     if (all) {
         const double sent = (double)rays * fmax((double)report.traced, 1.0);
         r->ray_seconds = (alpi_seconds() - began) / sent;
