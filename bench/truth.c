@@ -85,7 +85,7 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
 {
     const alpi_receivers receivers = alpi_texels_receivers(&map->texels);
     const alpi_occlusion_map_options how = {
-        .near = map->validity.near, .accuracy = accuracy, .deadline = HUGE_VAL};
+        .near = map->validity.proximity, .accuracy = accuracy, .deadline = HUGE_VAL};
     float *errors = bench_allocate(map->texels.count, sizeof *errors);
     memset(map->lattice.states, 0, map->texels.count);
     *result = (bench_result){0};
