@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Bounced light at texels: what each way to save rays costs and errs.
+// The final gather: cost and error of the lattice and of tracing every texel.
 //
-// All gather from the same solution, so that direct light and blocks are no part of the figures.
-// The truth is two maps y₁ and y₂ of which every texel is traced by many rays, independent of each
-// other and of what is held to them, so that E[(x − y₁)(x − y₂)] is the squared error of x.
+// All gather from the same solution, so direct light and patches do not affect the figures. The
+// truth is two independent maps y₁ and y₂ that trace every texel by many rays. So the squared error
+// of a map x is E[(x − y₁)(x − y₂)].
 #include "lit_scene.h"
 
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
-#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/final_gather.h"
 #include "transport/gather/cosine_rays.h"
 
 #include <math.h>
@@ -48,7 +48,7 @@ static const bounced_scene scenes[] = {
 enum { SCENE_COUNT = sizeof scenes / sizeof *scenes };
 
 typedef struct bounced_case {
-    const bounced_scene *what;
+    const bounced_scene *setup;
     lit_scene lit;
     alp_image *sky;
     alpi_reference_value *truth[2], *values; // [texels]
@@ -65,7 +65,7 @@ static alp_result find_lighting(bounced_case *c, const char *sky, alp_lighting_o
         ALP_TRY(alp_image_load(c->lit.scene.context, sky, &c->sky));
         options->sky.kind = ALP_SKY_IMAGE;
         options->sky.image = c->sky;
-    } else if (c->what->clear) {
+    } else if (c->setup->clear) {
         options->sky.kind = ALP_SKY_CLEAR;
         options->sun.azimuth = (float)(150.0 * ALPI_PI / 180.0);
         options->sun.elevation = (float)(40.0 * ALPI_PI / 180.0);
@@ -80,7 +80,7 @@ typedef struct bounced_way {
 } bounced_way;
 
 static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays, uint64_t seed,
-                   alpi_reference_value *values, alpi_bounced_report *report)
+                   alpi_reference_value *values, alpi_final_gather_report *report)
 {
     const alpi_gather_scene from = alpi_radiosity_scene(&c->lit.solution);
     const alpi_cosine_rays cosine = {.context = c->lit.scene.context,
@@ -93,21 +93,21 @@ static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays,
                                  .gatherer = &gatherer,
                                  .receivers = &c->lit.receivers,
                                  .values = values};
-    const alpi_bounced_options options = {.gather = &job,
-                                          .order = c->lit.order,
-                                          .count = c->lit.count,
-                                          .near = c->lit.map.validity.near,
-                                          .adaptive = way->adaptive,
-                                          .straight = way->straight};
+    const alpi_final_gather_options options = {.gather = &job,
+                                               .order = c->lit.order,
+                                               .count = c->lit.count,
+                                               .proximity = c->lit.map.validity.proximity,
+                                               .adaptive = way->adaptive,
+                                               .straight = way->straight};
     return bench_good(&c->lit.scene,
-                      alpi_bounced_map(&options, &c->lit.map.lattice, NULL, c->states, report));
+                      alpi_final_gather(&options, &c->lit.map.lattice, NULL, c->states, report));
 }
 
 static bool find_truth(bounced_case *c, bool quick)
 {
     const bounced_way all = {.name = ""};
     const uint32_t texels = c->lit.map.texels.count;
-    alpi_bounced_report report = {0};
+    alpi_final_gather_report report = {0};
     double sum = 0.0;
     c->states = bench_allocate(texels, sizeof *c->states);
     c->values = bench_allocate(texels, sizeof *c->values);
@@ -127,20 +127,20 @@ static bool find_truth(bounced_case *c, bool quick)
     return true;
 }
 
-static bool open_case(const bounced_scene *what, bool quick, bounced_case *c)
+static bool open_case(const bounced_scene *setup, bool quick, bounced_case *c)
 {
     char path[PATH_SIZE], sky[PATH_SIZE];
-    *c = (bounced_case){.what = what};
-    snprintf(path, sizeof path, "%s", what->shared ? bench_shared(what->name, "") : what->name);
-    snprintf(sky, sizeof sky, "%s", what->sky != NULL ? bench_shared(what->sky, "") : "");
+    *c = (bounced_case){.setup = setup};
+    snprintf(path, sizeof path, "%s", setup->shared ? bench_shared(setup->name, "") : setup->name);
+    snprintf(sky, sizeof sky, "%s", setup->sky != NULL ? bench_shared(setup->sky, "") : "");
     alp_lighting_options lighting;
     if (!bench_scene_open(path, 0, &c->lit.scene) ||
-        !bench_good(&c->lit.scene, find_lighting(c, what->sky != NULL ? sky : NULL, &lighting))) {
+        !bench_good(&c->lit.scene, find_lighting(c, setup->sky != NULL ? sky : NULL, &lighting))) {
         return false;
     }
     alp_atlas_options options = alp_atlas_options_default();
-    options.size = quick ? QUICK_SIZE : what->size > 0 ? what->size : options.size;
-    options.texels_per_metre = quick ? 0.0 : what->texels_per_metre;
+    options.size = quick ? QUICK_SIZE : setup->size > 0 ? setup->size : options.size;
+    options.texels_per_metre = quick ? 0.0 : setup->texels_per_metre;
     return lit_scene_make(&lighting, &options, &c->lit) && find_truth(c, quick);
 }
 
@@ -186,7 +186,7 @@ static bool measure(const bounced_case *c, const bounced_way *way, uint32_t rays
     *e = (bounced_error){0};
     double seconds[SEEDS];
     for (int s = 0; s < seeds; s++) {
-        alpi_bounced_report report = {0};
+        alpi_final_gather_report report = {0};
         const double began = bench_process_seconds();
         if (!gather(c, way, rays, SEED_MAPS + (uint64_t)s, c->values, &report)) {
             return false;
@@ -219,7 +219,7 @@ static bool measure_ways(const bounced_case *c, const bench_options *options, be
             }
             first = w == 0 ? e : first;
             bench_table_add(table, "%s|%u|%s|%.1f %%|%.2f %%|%+.3f %%|%.2f|%.3f|%.2f",
-                            c->what->title, rays[r], ways[w].name, 100.0 * e.traced,
+                            c->setup->title, rays[r], ways[w].name, 100.0 * e.traced,
                             100.0 * sqrt(e.squares), 100.0 * e.bias, sqrt(e.stated / e.squares),
                             e.seconds, first.squares * first.seconds / (e.squares * e.seconds));
         }
@@ -241,8 +241,8 @@ static void find_no_cells(const void *user, const alpi_hits *hits, const uint32_
     }
 }
 
-/// Processor seconds of the rays of all texels. @param look whether what they meet is looked up
-static bool time_rays(const bounced_case *c, bool look, double *seconds)
+/// Processor seconds of the rays of all texels. @param look_up whether their hits read cells
+static bool time_rays(const bounced_case *c, bool look_up, double *seconds)
 {
     alpi_gather_scene from = alpi_radiosity_scene(&c->lit.solution);
     const alpi_cosine_rays cosine = {.context = c->lit.scene.context,
@@ -250,7 +250,7 @@ static bool time_rays(const bounced_case *c, bool look, double *seconds)
                                      .replicates = REPLICATES,
                                      .seed = 1};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&cosine);
-    if (!look) {
+    if (!look_up) {
         from.light.find = find_no_cells;
     }
     const alpi_gather_job job = {.context = c->lit.scene.context,
@@ -266,7 +266,7 @@ static bool time_rays(const bounced_case *c, bool look, double *seconds)
     return good;
 }
 
-/// Processor seconds of the solution, and how many passes it had.
+/// Processor seconds of the solution, and its number of passes.
 static bool time_solution(const bounced_case *c, uint32_t bounces, double *seconds,
                           uint32_t *passes)
 {
@@ -294,40 +294,38 @@ static bool measure_times(const bounced_case *c, const bench_options *options, b
             return false;
         }
     }
-    const double looked = bench_median(all, rounds), not_looked = bench_median(blind, rounds);
+    const double with = bench_median(all, rounds), without = bench_median(blind, rounds);
     const double whole = bench_median(solved, rounds), first = bench_median(once, rounds);
-    bench_table_add(table, "%s|%.3f|%.3f|%.0f %%|%.3f|%u|%.3f|%.0f %%", c->what->title, looked,
-                    not_looked, 100.0 * (1.0 - not_looked / looked), whole, passes,
+    bench_table_add(table, "%s|%.3f|%.3f|%.0f %%|%.3f|%u|%.3f|%.0f %%", c->setup->title, with,
+                    without, 100.0 * (1.0 - without / with), whole, passes,
                     fmax(whole - first, 0.0), 100.0 * fmax(1.0 - first / whole, 0.0));
     return true;
 }
 
 // --- all -----------------------------------------------------------------------------------------
 
-static bool is_asked(const bounced_scene *what, const bench_options *options)
+static bool is_chosen(const bounced_scene *setup, const bench_options *options)
 {
-    return (!what->shared || bench_shared(what->name, NULL) != NULL) &&
-           (options->scene == NULL || strcmp(options->scene, what->title) == 0);
+    return (!setup->shared || bench_shared(setup->name, NULL) != NULL) &&
+           (options->scene == NULL || strcmp(options->scene, setup->title) == 0);
 }
 
 int bench_bounced(const bench_options *options)
 {
     bench_table errors, times;
-    bench_table_start(&errors, "Bounced light at the texels",
-                      "Root mean square error over the mean, against a map of which every texel is "
-                      "traced by twice 1,024 rays of the same solution; processor seconds of all "
-                      "threads. Worth: the seconds that tracing every texel takes to the same "
-                      "error, over those of the way.",
+    bench_table_start(&errors, "The final gather",
+                      "Root mean square error over the mean. The truth traces every texel by twice "
+                      "1,024 rays into the same solution. Processor seconds of all threads. Worth: "
+                      "seconds for the same error by tracing every texel, over those of the way.",
                       "scene|rays|way|traced|error|bias|stated/true|s|worth");
-    bench_table_start(&times, "Where the time of bounced light goes",
-                      "Processor seconds. Rays: 64 of every texel, and the same where what they "
-                      "meet is not looked up. Solution: direct light, the rays of blocks, which "
-                      "are traced once and kept, and passes over them, of which the later ones "
-                      "are all but the first.",
+    bench_table_start(&times, "Time of the final gather and of the solution",
+                      "Processor seconds. Rays: 64 of every texel, with and without the look-up of "
+                      "cells. Solution: direct light, the rays of patches, which are traced once, "
+                      "and all passes. Later ones: all passes but the first.",
                       "scene|rays|no look-ups|look-ups|solution|passes|later ones|of it");
     bool good = true;
     for (int i = 0; i < SCENE_COUNT && good; i++) {
-        if (!is_asked(&scenes[i], options)) {
+        if (!is_chosen(&scenes[i], options)) {
             continue;
         }
         bounced_case c;

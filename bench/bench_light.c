@@ -11,7 +11,7 @@
 
 #include <stdlib.h>
 
-enum { WORKER_LIMIT = 2, ROUNDS = 7, BLOCK = 256 };
+enum { WORKER_LIMIT = 2, ROUNDS = 7, BATCH = 256 };
 enum { CUBE = 64, CUBES = 256, CUBES_PER_RUN = 8 };
 enum { RAYS = 256, REPLICATES = 4, TEXELS = 12288, TEXELS_PER_RUN = 512 };
 enum { QUICK_CUBES = 8, QUICK_TEXELS = 512, QUICK_SIZE = 32 };
@@ -31,7 +31,7 @@ typedef struct gather_case {
     double traced[WORKER_LIMIT];
 } gather_case;
 
-// --- what is measured ----------------------------------------------------------------------------
+// --- rays ----------------------------------------------------------------------------------------
 
 /// The packets as the gatherer aims them, in the order of the list.
 static bool record_packets(gather_case *c)
@@ -56,7 +56,7 @@ static bool record_packets(gather_case *c)
 static alp_result run_raw_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     gather_case *c = user;
-    const uint32_t first = begin * BLOCK, most = (end - begin) * BLOCK;
+    const uint32_t first = begin * BATCH, most = (end - begin) * BATCH;
     const uint32_t left = c->packet_count - first, some = left < most ? left : most;
     double (*clock)(void) = c->workers == 1 ? bench_thread_seconds : alpi_seconds;
     const alpi_rays *packets = c->packets + first;
@@ -74,7 +74,7 @@ static double time_raw(gather_case *c, bool in_pairs)
     for (int w = 0; w < WORKER_LIMIT; w++) {
         c->traced[w] = 0.0;
     }
-    (void)!alpi_parallel_for(c->context, (c->packet_count + BLOCK - 1) / BLOCK, 1, run_raw_range, c,
+    (void)!alpi_parallel_for(c->context, (c->packet_count + BATCH - 1) / BATCH, 1, run_raw_range, c,
                              NULL);
     for (int w = 0; w < WORKER_LIMIT; w++) {
         sum += c->traced[w];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole bakes of light: what two workers gain, and how time grows with triangles and with texels.
+// Whole bakes of light: the gain of two workers, and growth of time with triangles and texels.
 #include "bench.h"
 
 #include "embree_clock.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 
 enum { WORKERS = 2, ROUNDS = 3, FIXED_RAYS = 64 };
-enum { RECORD_EVERY = 8, RECORD_LIMIT = 1 << 20, REPLAY_BLOCK = 256 };
+enum { RECORD_EVERY = 8, RECORD_LIMIT = 1 << 20, REPLAY_BATCH = 256 };
 enum { QUICK_SIZE = 16, QUICK_RAYS = 32, GROWTH_SIZE = 512 };
 
 // --- one bake ------------------------------------------------------------------------------------
@@ -24,22 +24,22 @@ typedef struct light_bake {
     bool sky;      // a clear one and a sun
 } light_bake;
 
-/// Bakes in memory, on a scene that no bake has seen: the acceleration structure is built too.
-static bool bake(const light_bake *what, uint32_t workers, alp_bake_report *report)
+/// Bakes in memory, on a newly loaded scene, so that the acceleration structure is built too.
+static bool bake(const light_bake *setup, uint32_t workers, alp_bake_report *report)
 {
     bench_scene scene;
-    if (!bench_scene_load(what->name, workers, &scene)) {
+    if (!bench_scene_load(setup->name, workers, &scene)) {
         return false;
     }
     alp_bake_options o = alp_bake_options_default();
     o.maps = ALP_MAP_LIGHT;
-    o.atlas.size = what->size;
-    if (what->rays > 0) {
-        o.light.samples = what->rays;
+    o.atlas.size = setup->size;
+    if (setup->rays > 0) {
+        o.light.samples = setup->rays;
     } else {
         o.light.error = 0.01f;
     }
-    if (what->sky) {
+    if (setup->sky) {
         o.light.lighting.sky.kind = ALP_SKY_CLEAR;
         o.light.lighting.sun.elevation = 0.7f;
         o.light.lighting.sun.illuminance = 1e5f;
@@ -62,14 +62,14 @@ static void list_parts(const alp_bake_report *r, double parts[PARTS])
     parts[4] = r->seconds_seams;
 }
 
-static bool measure_workers(const light_bake *what, int rounds, bench_table *table)
+static bool measure_workers(const light_bake *setup, int rounds, bench_table *table)
 {
     double seconds[WORKERS][PARTS][ROUNDS], gains[PARTS][ROUNDS], both[PARTS], gain[PARTS];
     alp_bake_report report;
     for (int i = 0; i < rounds; i++) {
         for (uint32_t w = 0; w < WORKERS; w++) {
             double parts[PARTS];
-            if (!bake(what, w + 1, &report)) {
+            if (!bake(setup, w + 1, &report)) {
                 return false;
             }
             list_parts(&report, parts);
@@ -86,7 +86,7 @@ static bool measure_workers(const light_bake *what, int rounds, bench_table *tab
         gain[p] = bench_median(gains[p], rounds);
     }
     bench_table_add(table, "%s|%u²|%llu|%.2f|%.2f|%.2f|%.2f, %.2f|%.2f, %.2f|%.2f, %.2f|%.2f, %.2f",
-                    what->name, what->size, (unsigned long long)report.atlas.texels,
+                    setup->name, setup->size, (unsigned long long)report.atlas.texels,
                     bench_median(seconds[0][0], rounds), both[0], gain[0], both[1], gain[1],
                     both[2], gain[2], both[3], gain[3], both[4], gain[4]);
     return true;
@@ -106,15 +106,15 @@ static bool run_workers(const bench_options *options)
                       "scene|size|texels|one|two|gain|atlas|structure|light|seams");
     const size_t count = options->quick || options->scene != NULL ? 1 : BAKES;
     for (size_t i = 0; i < count; i++) {
-        light_bake what = bakes[i];
+        light_bake setup = bakes[i];
         if (options->scene != NULL) {
-            what = (light_bake){.name = options->scene, .size = 512, .sky = true};
+            setup = (light_bake){.name = options->scene, .size = 512, .sky = true};
         }
         if (options->quick) {
-            what.size = QUICK_SIZE;
-            what.rays = QUICK_RAYS;
+            setup.size = QUICK_SIZE;
+            setup.rays = QUICK_RAYS;
         }
-        if (!measure_workers(&what, options->quick ? 1 : ROUNDS, &table)) {
+        if (!measure_workers(&setup, options->quick ? 1 : ROUNDS, &table)) {
             return false;
         }
     }
@@ -124,29 +124,30 @@ static bool run_workers(const bench_options *options)
 
 // --- growth with triangles -----------------------------------------------------------------------
 
-/// The rays of a bake, to be sent again by themselves.
+/// The recorded rays of a bake, for replay.
 typedef struct sent_rays {
-    light_bake what;
+    light_bake setup;
     raw_embree *raw;
     embree_record record;
     double texels;
     double replayed[WORKERS]; // seconds of each worker
 } sent_rays;
 
-static bool record_rays(const light_bake *what, sent_rays *sent)
+static bool record_rays(const light_bake *setup, sent_rays *sent)
 {
-    *sent = (sent_rays){.what = *what, .record = {.capacity = RECORD_LIMIT, .every = RECORD_EVERY}};
+    *sent =
+        (sent_rays){.setup = *setup, .record = {.capacity = RECORD_LIMIT, .every = RECORD_EVERY}};
     const size_t size = sizeof *sent->record.packets * RECORD_LIMIT;
     bench_scene scene;
     alp_bake_report report = {0};
     sent->record.packets = aligned_alloc(64, size);
-    if (sent->record.packets == NULL || !bench_scene_load(what->name, 1, &scene)) {
+    if (sent->record.packets == NULL || !bench_scene_load(setup->name, 1, &scene)) {
         return false;
     }
     sent->raw = raw_embree_create(scene.scene, true);
     bench_scene_close(&scene);
     embree_record_to(&sent->record);
-    const bool good = sent->raw != NULL && bake(what, 1, &report);
+    const bool good = sent->raw != NULL && bake(setup, 1, &report);
     embree_record_to(NULL);
     sent->texels = (double)report.atlas.texels;
     return good;
@@ -161,9 +162,9 @@ static void release_rays(sent_rays *sent)
 static alp_result replay_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     sent_rays *s = user;
-    const uint32_t last = end * REPLAY_BLOCK;
+    const uint32_t last = end * REPLAY_BATCH;
     s->replayed[worker] +=
-        raw_embree_time_calls(s->raw, &s->record, begin * REPLAY_BLOCK,
+        raw_embree_time_calls(s->raw, &s->record, begin * REPLAY_BATCH,
                               last < s->record.count ? last : s->record.count, alpi_seconds);
     return ALP_OK;
 }
@@ -172,13 +173,13 @@ static alp_result replay_range(void *user, uint32_t begin, uint32_t end, uint32_
 static double time_replay(sent_rays *s, alp_context *context, uint32_t workers)
 {
     s->replayed[0] = s->replayed[1] = 0.0;
-    (void)!alpi_parallel_for(context, (s->record.count + REPLAY_BLOCK - 1) / REPLAY_BLOCK, 1,
+    (void)!alpi_parallel_for(context, (s->record.count + REPLAY_BATCH - 1) / REPLAY_BATCH, 1,
                              replay_range, s, NULL);
     const double all = (double)s->record.seen / (double)s->record.count;
     return 1e6 * all * (s->replayed[0] + s->replayed[1]) / workers / s->texels;
 }
 
-/// Of one round: what few and many triangles take, with ours and raw.
+/// Times of one round with few and with many triangles, ours and raw.
 typedef struct growth {
     double ours[2], raw[2];
 } growth;
@@ -192,7 +193,7 @@ static bool measure_growth(sent_rays sent[2], uint32_t workers, growth *g)
     for (int i = 0; i < 2 && good; i++) {
         alp_bake_report report = {0};
         g->raw[i] = time_replay(&sent[i], context, workers);
-        good = bake(&sent[i].what, workers, &report);
+        good = bake(&sent[i].setup, workers, &report);
         g->ours[i] = 1e6 * report.seconds_bake / sent[i].texels;
         g->raw[i] = 0.5 * (g->raw[i] + time_replay(&sent[i], context, workers));
     }
@@ -216,8 +217,8 @@ static bool add_growth(sent_rays sent[2], uint32_t workers, int rounds, bench_ta
         limit[i] = g.raw[1] / g.raw[0];
         ratio[i] = grown[i] / limit[i];
     }
-    bench_table_add(table, "%s to %s|%u|%.2f|%.2f|%.2f|%.2f|%.2f|%.2f|%.2f", sent[0].what.name,
-                    sent[1].what.name, workers, bench_median(ours[0], rounds),
+    bench_table_add(table, "%s to %s|%u|%.2f|%.2f|%.2f|%.2f|%.2f|%.2f|%.2f", sent[0].setup.name,
+                    sent[1].setup.name, workers, bench_median(ours[0], rounds),
                     bench_median(ours[1], rounds), bench_median(grown, rounds),
                     bench_median(raw[0], rounds), bench_median(raw[1], rounds),
                     bench_median(limit, rounds), bench_median(ratio, rounds));
@@ -263,20 +264,20 @@ static bool run_texels(const bench_options *options)
                       "texels where the last column is even.",
                       "scene|size|texels|traced|seconds|microseconds a texel");
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        const light_bake what = {.name = "builtin:teapot-room",
-                                 .size = options->quick ? sizes[i] / 16 : sizes[i],
-                                 .rays = FIXED_RAYS};
+        const light_bake setup = {.name = "builtin:teapot-room",
+                                  .size = options->quick ? sizes[i] / 16 : sizes[i],
+                                  .rays = FIXED_RAYS};
         double seconds[ROUNDS];
         alp_bake_report report = {0};
         const int rounds = options->quick ? 1 : ROUNDS;
         for (int r = 0; r < rounds; r++) {
-            if (!bake(&what, 0, &report)) {
+            if (!bake(&setup, 0, &report)) {
                 return false;
             }
             seconds[r] = report.seconds_bake;
         }
         const double texels = (double)report.atlas.texels, median = bench_median(seconds, rounds);
-        bench_table_add(&table, "%s|%u|%.0f|%.0f %%|%.3f|%.3f", what.name, what.size, texels,
+        bench_table_add(&table, "%s|%u|%.0f|%.0f %%|%.3f|%.3f", setup.name, setup.size, texels,
                         100.0 * (double)report.light_traced / texels, median,
                         1e6 * median / texels);
     }

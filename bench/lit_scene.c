@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-enum { SEED_SOLUTION = 1, BLOCK_RAYS = 256, DIRECT_SAMPLES = 64 };
+enum { SEED_SOLUTION = 1, PATCH_RAYS = 256, DIRECT_SAMPLES = 64 };
 
 static alp_result make_lighting(const alp_lighting_options *options, lit_scene *lit)
 {
@@ -18,7 +18,7 @@ static alp_result make_lighting(const alp_lighting_options *options, lit_scene *
 alp_result lit_scene_solve(const lit_scene *lit, uint32_t bounces, alpi_radiosity *solution)
 {
     const alpi_cosine_rays rays = {.context = lit->scene.context,
-                                   .samples = BLOCK_RAYS,
+                                   .samples = PATCH_RAYS,
                                    .replicates = 1,
                                    .seed = SEED_SOLUTION};
     const alpi_gatherer gatherer = alpi_cosine_rays_gatherer(&rays);
@@ -28,7 +28,7 @@ alp_result lit_scene_solve(const lit_scene *lit, uint32_t bounces, alpi_radiosit
     o.tracer = lit->scene.tracer;
     o.lighting = lit->soft != NULL ? lit->soft : lit->lighting;
     o.direct = lit->direct != NULL ? lit->direct : lit->lighting;
-    o.blocks.near = lit->map.validity.near;
+    o.patch_rule.proximity = lit->map.validity.proximity;
     o.gatherer = &gatherer;
     o.direct_samples = DIRECT_SAMPLES;
     o.seed = SEED_SOLUTION;

@@ -90,7 +90,7 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
                                       .receivers = &receivers,
                                       .order = map->lattice.order,
                                       .count = map->texels.count,
-                                      .near = map->validity.near,
+                                      .proximity = map->validity.proximity,
                                       .lattice = &map->lattice,
                                       .errors = errors,
                                       .accuracy = accuracy,

@@ -133,11 +133,11 @@ typedef enum alp_emitters {
 /// "Sides and panes". Without bounces, each light gets its own samples. More than 64 lamps, or
 /// suns, share the samples of one and are drawn in proportion to their light.
 ///
-/// RAYS and HEMICUBE solve a radiosity. Direct light is computed at every texel. Blocks of 4 × 4
+/// RAYS and HEMICUBE solve a radiosity. Direct light is computed at every texel. Patches of 4 × 4
 /// texels of one chart gather its reflections, one pass for each bounce. Passes end with the last
 /// bounce, or when further bounces would add less than a hundredth of the error (5e-5 to 5e-4 of
 /// all light). With `samples` and a number of bounces, all bounces are computed. Then every texel
-/// gathers the last bounce itself. Bias: within a block, light that has bounced counts as even when
+/// gathers the last bounce itself. Bias: within a patch, light that has bounced counts as even when
 /// it bounces again. See docs/measured/accuracy.md.
 /// Based on: C. M. Goral, K. E. Torrance, D. P. Greenberg, B. Battaile. Modeling the Interaction of
 ///           Light Between Diffuse Surfaces. SIGGRAPH 1984;
@@ -214,7 +214,7 @@ typedef struct alp_sampling_options {
     /// machine's memory. Allocations made before, such as the scene, do not count. Neither does
     /// memory of Embree, jansson, libpng, libjpeg and OpenEXR. A bake that would hold more fails
     /// with LIMIT, and the message names the stage. Maps that cannot fit fail before any ray is
-    /// traced. Light keeps the rays of its blocks in the rest, or traces them again in each pass:
+    /// traced. Light keeps the rays of its patches in the rest, or traces them again in each pass:
     /// the bits are the same.
     uint64_t memory_limit;
     /// true: a cancelled bake ends with its results so far. Light has none before its first round

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "maps/lightmap.h"
-#include "maps/radiosity/light_layers.h"
+#include "maps/radiosity/layer_arrays.h"
 #include "maps/texels/lattice.h"
 #include "maps/texels/scratch.h"
 #include "maps/texels/validity.h"
@@ -39,7 +39,7 @@ typedef struct alpi_light_asset {
 
 /// The layers of light; none unless the options ask for them.
 typedef struct alpi_layer_plan {
-    alpi_light_layers light;       // room is made where light is gathered
+    alpi_layer_arrays light;       // room is made where light is gathered
     char *names[ALPI_LAYER_LIMIT]; // [light.count] unlike, and fit for names of files
     uint32_t *part_layers;         // [parts of direct light] the layer of each
     uint32_t sky;                  // its layer; ALPI_NONE: there is none

@@ -164,7 +164,7 @@ alp_result alpi_bake_plan_layers(alpi_bake_job *job)
 void alpi_bake_release_layers(alpi_bake_job *job)
 {
     alpi_layer_plan *plan = &job->layers;
-    alpi_light_layers_clear(&plan->light);
+    alpi_layer_arrays_clear(&plan->light);
     alpi_release(job->context, plan->part_layers);
     for (uint32_t i = 0; i < plan->light.count; i++) {
         alpi_release(job->context, plan->names[i]);
@@ -193,6 +193,6 @@ alp_result alpi_bake_store_layers(alpi_bake_job *job)
         ALP_TRY(alpi_lightmap_store_vectors(l, (const float(*)[3])plan->light.bounced[i],
                                             &l->layer_pages[i]));
     }
-    alpi_light_layers_clear(&plan->light);
+    alpi_layer_arrays_clear(&plan->light);
     return ALP_OK;
 }

@@ -37,7 +37,7 @@ void alpi_lightmap_pixel(const alpi_shown *shown, const alpi_view *view, uint32_
         if (misty) {
             alpi_air_along(&shown->air, &rays, (1u << lanes) - 1u, key, first, scattered, left);
         }
-        alpi_gather_look(from, &rays, (1u << lanes) - 1u, true, radiance, open);
+        alpi_gather_trace(from, &rays, (1u << lanes) - 1u, true, radiance, open);
         for (uint32_t i = 0; i < lanes; i++) { // panes move origins and no directions
             const vec3 direction = {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
             float filled = add_background(from, direction, open[i], &radiance[i]);

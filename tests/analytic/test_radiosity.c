@@ -117,7 +117,7 @@ TEST(a_cube_of_six_patches)
     test_radiant_options o = patch_options();
     test_radiant_open(make_cube(0.5, 0.0, 0.0, 1.0 / ALPI_PI), &o, &r);
     assert_int_equal(r.texels.count, 6);
-    assert_int_equal(r.solution.patches.block_count, 6);
+    assert_int_equal(r.solution.patches.patch_count, 6);
     const double floor = 0.5 * test_radiant_solved_mean(&r, 0, 1);
     const double walls = 0.5 * test_radiant_solved_mean(&r, 1, 1);
     printf("accuracy: radiosity in the cube of six patches: floor %.6f, walls %.6f\n", floor,
@@ -167,7 +167,7 @@ TEST(two_plates)
             const double exact = F * (exitance[other] + albedo[other] * F * exitance[one]) /
                                  (1.0 - albedo[0] * albedo[1] * F * F);
             const double seen = (double)r.solution.direct[t].mean[1] +
-                                (double)r.solution.bounced[r.solution.patches.blocks[t]].mean[1];
+                                (double)r.solution.bounced[r.solution.patches.patch_of[t]].mean[1];
             ASSERT_NEAR(seen, exact, exact * (wide ? 5e-3 : PATCH_ERROR));
         }
         const alpi_energy *e = &r.solution.energy;
@@ -214,7 +214,7 @@ TEST(a_cube_of_texels)
         printf("accuracy: radiosity in the cube of %u texels, %s: floor %.5f, its middle %.4f, "
                "walls %.5f\n",
                r.texels.count, cube > 0 ? "hemicubes" : "rays", floor, middle / count, walls);
-        // Half a digit; noise; and the light of a block's middle, not its own, in its corners.
+        // Half a digit; noise; and the light of a patch's middle, not its own, in its corners.
         ASSERT_NEAR(floor, 0.1552, 5e-5 + 1e-3 * 0.1552);
         ASSERT_NEAR(walls, 0.1640, 5e-5 + 1e-3 * 0.1640);
         ASSERT_NEAR(middle / count, 0.179, 5e-4 + 4.0 * sqrt(variance) / count);

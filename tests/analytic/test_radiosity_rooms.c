@@ -177,7 +177,7 @@ TEST(energy_is_accounted_for)
                    e->lost_behind / e->emitted, e->unshot / e->emitted, sum / e->emitted - 1.0);
             assert_true(e->known && e->emitted > 0.0 && e->absorbed > 0.0);
             assert_true(e->escaped >= 0.0 && e->unshot >= 0.0);
-            // What escapes of a lamp's own light is told by the rays of its few blocks: cornell's
+            // What escapes of a lamp's own light is told by the rays of its few patches: cornell's
             // sum is 1.7e-3 about its mean over ten seeds. That is 4e-3 too large, by texels that
             // lie partly under the boxes: it halves with their size, as does what ends behind.
             // Smooth normals tilt hemispheres, and what one texel loses by that no other finds.

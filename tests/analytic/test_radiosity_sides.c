@@ -116,7 +116,7 @@ TEST(thin_walls_let_nothing_through)
 }
 
 /// The same where floor, ceiling and sides go on under the wall: only texels that it crosses, and
-/// blocks of them, can mix both halves.
+/// patches of them, can mix both halves.
 TEST(walls_across_charts)
 {
     for (uint32_t spacing = 1; spacing <= 4; spacing += 3) {
@@ -144,9 +144,10 @@ TEST(walls_across_charts)
                 near += p.x >= 0.0f && p.x <= 0.1f ? e : 0.0;
             }
         }
-        printf("accuracy: a wall across charts, blocks of %u: %.1e of a half's light is behind it, "
-               "%.1e in the texels that it crosses\n",
-               spacing, sums[1] / sums[0], near / sums[0]);
+        printf(
+            "accuracy: a wall across charts, patches of %u: %.1e of a half's light is behind it, "
+            "%.1e in the texels that it crosses\n",
+            spacing, sums[1] / sums[0], near / sums[0]);
         // A texel of 4 cm that the wall crosses is as bright on its dark side as on the other, and
         // shines: so do those along the four edges of the wall.
         assert_true(sums[1] < (spacing == 1 ? 0.01 : 0.02) * sums[0] && sums[1] > 0.0);
@@ -211,6 +212,6 @@ TEST(sides_keep_their_light_apart)
         printf("light under a sheet: single-sided %.5f, double-sided front %.5f, back %.5f\n",
                single, front, back);
         assert_true(single > 0.05 && front == single);
-        ASSERT_NEAR(back, front, 0.01 * front); // other random points: 200 blocks of 256 rays
+        ASSERT_NEAR(back, front, 0.01 * front); // other random points: 200 patches of 256 rays
     }
 }

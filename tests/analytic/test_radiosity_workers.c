@@ -69,7 +69,7 @@ TEST(kept_or_not_and_workers)
             test_radiant_gather(&r, 32);
             assert_true(r.texels.count <= TEXEL_LIMIT && r.solution.patches.two_sided);
             assert_true(r.solution.kept == (i % 2 == 0) && r.solution.passes == 3);
-            assert_true(r.solution.receiver_count > r.solution.patches.block_count); // backs
+            assert_true(r.solution.receiver_count > r.solution.patches.patch_count); // backs
             const size_t size = r.texels.count * sizeof *first;
             const size_t cells_size = 2 * (size_t)r.texels.count * sizeof *cells;
             if (i == 0) {
@@ -109,7 +109,7 @@ TEST_WITH_CONTEXT(light_adds_up, 2)
 }
 
 /// A lamp in the middle of a cube: the six faces have the same mean, and so have the
-/// quarters of each. 1,024 rays a block.
+/// quarters of each. 1,024 rays a patch.
 TEST_WITH_CONTEXT(a_symmetric_room_has_a_symmetric_map, 2)
 {
     alpi_builder b;

@@ -62,7 +62,7 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
                                       .gatherer = &r->gatherer,
                                       .bounces = options->bounces,
                                       .tolerance = options->tolerance,
-                                      .blocks = {.spacing = options->spacing},
+                                      .patch_rule = {.spacing = options->spacing},
                                       .direct_samples = options->direct_samples,
                                       .kept_limit = options->kept_limit,
                                       .seed = options->seed};
@@ -145,9 +145,9 @@ double test_radiant_solved_mean(const test_radiant *r, uint32_t surface, int cha
     for (uint32_t t = 0; t < r->texels.count; t++) {
         if (surface == ALPI_NONE || test_radiant_surface(r, t) == surface) {
             const double a = (double)r->texels.areas[t];
-            const uint32_t block = r->solution.patches.blocks[t];
+            const uint32_t patch = r->solution.patches.patch_of[t];
             sum += a * ((double)r->solution.direct[t].mean[channel] +
-                        (double)r->solution.bounced[block].mean[channel]);
+                        (double)r->solution.bounced[patch].mean[channel]);
             area += a;
         }
     }

@@ -15,7 +15,7 @@
 #include <math.h>
 
 // Rays of a texel in the first round for an error, about. Later rounds depend on the scene.
-enum { FIRST_RAYS = 64, TEXELS_PER_BLOCK = 5 };
+enum { FIRST_RAYS = 64, TEXELS_PER_PATCH = 5 };
 static const double PAGE_SHARE = 0.84; // of a page that its charts leave for texels
 static const double TEXELS_PER_CHART = 1500.0;
 // Of n texels the lattice traces LATTICE_SHARE × n; along edges further texels are traced, × √n.
@@ -140,11 +140,12 @@ static double count_light_rays(const alpi_bake_job *job, double texels, uint32_t
     if (l->gather == ALP_GATHER_PATHS) {
         return texels * l->samples;
     }
-    const double blocks = texels / TEXELS_PER_BLOCK;
+    const double patches = texels / TEXELS_PER_PATCH;
     const alpi_light_settings settings =
         alpi_light_choose(job, to_count(texels), (uint32_t)to_count(texels));
     const double times = l->layers ? 2.0 : 1.0; // layers trace the rays of texels once more
-    return SHADOW_SHARE * texels * settings.direct_samples * lights + blocks * settings.patch_rays +
+    return SHADOW_SHARE * texels * settings.direct_samples * lights +
+           patches * settings.patch_rays +
            times * count_gathered(l) * count_traced(o, texels, LIT_EDGE_TEXELS);
 }
 

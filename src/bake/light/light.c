@@ -46,7 +46,7 @@ static alp_result solve_on_map(alpi_light_bake *light, const alpi_light_gatherer
     options.scene = job->scene;
     options.tracer = light->tracer;
     options.lighting = light->sources.gathered;
-    options.blocks.near = job->gathering.validity.near;
+    options.patch_rule.proximity = job->gathering.validity.proximity;
     options.direct = light->sources.sampled;
     options.direct_scene = g->counted ? &g->dark : NULL;
     options.counted = g->counted ? &g->texels : NULL;
@@ -108,7 +108,7 @@ static alp_result solve_whole_scene(alpi_light_bake *light, solved *s)
     const uint64_t texels = (uint64_t)o->atlas.size * o->atlas.size;
     options.atlas.mode = ALP_ATLAS_CHARTS;
     options.atlas.size = o->atlas.size;
-    options.block_rays = alpi_light_choose(light->job, texels, light->count).patch_rays;
+    options.patch_rays = alpi_light_choose(light->job, texels, light->count).patch_rays;
     ALP_TRY(alpi_solution_create(&options, light->progress.callback, light->progress.user,
                                  &s->whole_scene));
     s->radiosity = &s->whole_scene->radiosity;
@@ -143,7 +143,7 @@ static alp_result solve(alpi_light_bake *light, const alpi_light_gatherers *g, s
     alpi_light_clock_part(light->clock, false, 1.0);
     ALP_TRY(whole_scene ? solve_whole_scene(light, s) : solve_on_map(light, g, s));
     report_solution(light->job, s->radiosity);
-    alpi_radiosity_settle(s->radiosity, light->settings.in_rounds && !whole_scene);
+    alpi_radiosity_trim(s->radiosity, light->settings.in_rounds && !whole_scene);
     return ALP_OK;
 }
 

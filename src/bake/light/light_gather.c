@@ -90,15 +90,15 @@ alp_result alpi_light_relight(const alpi_light_rounds *r, uint32_t rays, double 
     const alpi_radiosity_options *o = &solution->options;
     const double by_patch = (double)o->gatherer->packet_count * ALPI_PACKET;
     const double by_texels = (double)rays * (double)light->job->report.light_traced /
-                             fmax((double)solution->patches.block_count, 1.0);
+                             fmax((double)solution->patches.patch_count, 1.0);
     const bool finer = solution->texels == NULL && o->layers == NULL &&
                        o->bounces > ALPI_RADIOSITY_PASS_LIMIT && by_texels >= by_patch;
     *noise = 1.0 / sqrt(finer ? by_texels : by_patch);
     if (solution->texels != NULL) {
         return ALP_OK;
     }
-    ALP_TRY(
-        alpi_radiosity_show(solution, ALPI_NONE, finer ? light->values : NULL, &light->progress));
+    ALP_TRY(alpi_radiosity_relight(solution, ALPI_NONE, finer ? light->values : NULL,
+                                   &light->progress));
     return alpi_patches_set_reach(&solution->patches, &light->progress);
 }
 
@@ -112,7 +112,7 @@ const uint32_t *alpi_light_senders(const alpi_light_rounds *r, uint32_t *count)
 }
 
 /// Notes the cost of a round of all texels.
-static void note_round(alpi_light_rounds *r, const alpi_bounced_report *report, uint32_t rays,
+static void note_round(alpi_light_rounds *r, const alpi_final_gather_report *report, uint32_t rays,
                        double seconds)
 {
     r->rays.seconds = seconds / ((double)rays * fmax((double)report->traced, 1.0));
@@ -135,13 +135,13 @@ alp_result alpi_light_gather(alpi_light_rounds *r, uint32_t rays, const alpi_lig
     tracing.gather.values = into->values;
     tracing.gather.skies = into->skies;
     tracing.gather.directional = into->directional;
-    alpi_bounced_options options = {
+    alpi_final_gather_options options = {
         .gather = &tracing.gather,
-        .near = job->gathering.validity.near,
+        .proximity = job->gathering.validity.proximity,
         .adaptive = all && light->settings.adaptive,
         .straight = true,
         .held_out = all && (r->rays.per_texel == 0 || held_out->count > 0) ? held_out : NULL,
-        .beside = &tracing.beside,
+        .independent = &tracing.beside,
         .joined = r->fixed == NULL,
         .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : light->lattice->values,
     };
@@ -149,10 +149,11 @@ alp_result alpi_light_gather(alpi_light_rounds *r, uint32_t rays, const alpi_lig
     if (!all) {
         memset(states, 0, light->receivers->count);
     }
-    alpi_bounced_report report = {.traced = job->report.light_traced, .factor = r->rays.factor};
+    alpi_final_gather_report report = {.traced = job->report.light_traced,
+                                       .factor = r->rays.factor};
     const uint32_t sent = tracing.gather.gatherer->packet_count * ALPI_PACKET;
     const double began = alpi_seconds();
-    ALP_TRY(alpi_bounced_map(&options, light->lattice, &light->progress, states, &report));
+    ALP_TRY(alpi_final_gather(&options, light->lattice, &light->progress, states, &report));
     if (all) {
         note_round(r, &report, sent, alpi_seconds() - began);
     }

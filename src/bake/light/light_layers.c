@@ -2,9 +2,9 @@
 #include "bake/light/light_layers.h"
 
 #include "base/memory.h"
-#include "maps/radiosity/bounced_again.h"
+#include "maps/radiosity/regather.h"
 
-alpi_light_layers *alpi_light_find_layers(alpi_bake_job *job, bool sky)
+alpi_layer_arrays *alpi_light_find_layers(alpi_bake_job *job, bool sky)
 {
     alpi_layer_plan *plan = &job->layers;
     plan->light.part_layers = plan->part_layers;
@@ -12,15 +12,15 @@ alpi_light_layers *alpi_light_find_layers(alpi_bake_job *job, bool sky)
     return job->options.light.layers ? &plan->light : NULL;
 }
 
-static alp_result gather_each(alpi_light_rounds *r, alpi_bounced_again *again, uint32_t rays)
+static alp_result gather_each(alpi_light_rounds *r, alpi_regather *again, uint32_t rays)
 {
     const alpi_light_bake *light = r->light;
-    const alpi_bounced_options *o = &again->options;
-    const alpi_light_layers *layers = &light->job->layers.light;
+    const alpi_final_gather_options *o = &again->options;
+    const alpi_layer_arrays *layers = &light->job->layers.light;
     for (uint32_t layer = 0; layer < layers->count; layer++) {
         float(*bounced)[3] = layers->bounced[layer];
-        ALP_TRY(alpi_radiosity_show(r->solution, layer, NULL, &light->progress));
-        ALP_TRY(alpi_bounced_again_gather(again, &light->progress));
+        ALP_TRY(alpi_radiosity_relight(r->solution, layer, NULL, &light->progress));
+        ALP_TRY(alpi_regather_run(again, &light->progress));
         for (uint32_t i = 0; i < o->count; i++) {
             const uint32_t t = o->order[i];
             const double had = r->rays.of_texels != NULL ? r->rays.of_texels[t] : 0.0;
@@ -31,10 +31,10 @@ static alp_result gather_each(alpi_light_rounds *r, alpi_bounced_again *again, u
         }
     }
     light->job->report.rays += again->rays;
-    return alpi_radiosity_show(r->solution, ALPI_NONE, NULL, &light->progress);
+    return alpi_radiosity_relight(r->solution, ALPI_NONE, NULL, &light->progress);
 }
 
-alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_bounced_options *options,
+alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_final_gather_options *options,
                                     uint8_t *states, uint32_t rays)
 {
     const alpi_light_bake *light = r->light;
@@ -51,15 +51,15 @@ alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_bounced_opt
     if (gather.values == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    alpi_bounced_options own = *options;
+    alpi_final_gather_options own = *options;
     own.gather = &gather;
-    alpi_bounced_again again = {0};
-    alp_result result = alpi_bounced_again_create(
+    alpi_regather again = {0};
+    alp_result result = alpi_regather_create(
         &own, light->lattice, states, r->solution->options.kept_limit, &light->progress, &again);
     if (result == ALP_OK) {
         result = gather_each(r, &again, rays);
     }
-    alpi_bounced_again_destroy(&again);
+    alpi_regather_destroy(&again);
     alpi_release(context, gather.values);
     return result;
 }
@@ -67,7 +67,7 @@ alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_bounced_opt
 void alpi_light_scale_layers(const alpi_light_direct *direct, const uint32_t *list, uint32_t count,
                              uint32_t more, bool merged)
 {
-    const alpi_light_layers *l = &direct->light->job->layers.light;
+    const alpi_layer_arrays *l = &direct->light->job->layers.light;
     for (uint32_t layer = 0; layer < l->count; layer++) {
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t t = list[i];
@@ -82,7 +82,7 @@ void alpi_light_scale_layers(const alpi_light_direct *direct, const uint32_t *li
 
 void alpi_light_sum_layers(const alpi_light_bake *light, const float (*skies)[3], bool direct)
 {
-    const alpi_light_layers *l = &light->job->layers.light;
+    const alpi_layer_arrays *l = &light->job->layers.light;
     for (uint32_t i = 0; light->job->options.light.layers && i < light->count; i++) {
         const uint32_t t = light->order[i];
         for (int k = 0; k < 3; k++) {

@@ -8,13 +8,14 @@
 
 /// The layers that a solution fills; NULL: none are wanted.
 /// @param sky whether bounced rays gather the sky too
-alpi_light_layers *alpi_light_find_layers(alpi_bake_job *job, bool sky);
+alpi_layer_arrays *alpi_light_find_layers(alpi_bake_job *job, bool sky);
 /// Gathers each layer at the texels with the rays of the whole light, and averages it with the
 /// rounds before.
 /// @param rays of each texel now
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_light_gather_layers(alpi_light_rounds *rounds, const alpi_bounced_options *options,
-                                    uint8_t *states, uint32_t rays);
+alp_result alpi_light_gather_layers(alpi_light_rounds *rounds,
+                                    const alpi_final_gather_options *options, uint8_t *states,
+                                    uint32_t rays);
 /// Scales the direct light of each layer at listed texels, around more samples. The samples are
 /// added to `had / more` times the mean before; then the sum is scaled to the mean.
 /// @param merged false: before the samples; true: after them

@@ -45,9 +45,9 @@ alp_result alpi_light_sample_all(alpi_light_bake *light)
     ALPI_TRY_NEW(job->context, light->values, texels);
     alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = light->values, .directional = light->directional};
-    alpi_light_layers *layers = alpi_light_find_layers(job, false);
+    alpi_layer_arrays *layers = alpi_light_find_layers(job, false);
     if (layers != NULL) {
-        ALP_TRY(alpi_light_layers_reserve(layers, texels, 0, texels));
+        ALP_TRY(alpi_layer_arrays_reserve(layers, texels, 0, texels));
         output.groups = layers->direct;
         output.part_groups = layers->part_layers;
     }

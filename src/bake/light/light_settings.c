@@ -91,7 +91,7 @@ static uint32_t find_patch_rays(const alp_light_options *o, uint64_t texels)
     }
     const double error = find_error(o);
     if (error == 0.0) {
-        return ALPI_RADIOSITY_BLOCK_RAYS;
+        return ALPI_RADIOSITY_PATCH_RAYS;
     }
     const double all = pow(6.0 / error, 2.0), about = pow(0.064 / error, 2.0);
     const double each = fmax(all * TEXELS_PER_PATCH / fmax((double)texels, 1.0), about);

@@ -5,7 +5,7 @@
 
 #include "bake/light/light_progress.h"
 #include "bake/light/light_settings.h"
-#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/final_gather.h"
 #include "maps/texels/stated_error.h"
 
 typedef struct alpi_light_bake {
@@ -92,7 +92,7 @@ typedef struct alpi_light_rays {
     double sending;      // texels that trace rays in a round of all; a guess before the first
     double power;        // the error falls with rays^−power
     double seconds;      // of one more ray of a texel that traces any
-    float factor;        // alpi_bounced_report.factor of the last round of all texels
+    float factor;        // alpi_final_gather_report.factor of the last round of all texels
 } alpi_light_rays;
 
 /// Texels that any round interpolated. Their error is measured at texels that are held out.

@@ -32,9 +32,10 @@ static bool is_untraced(const alpi_occlusion_task *task, uint32_t texel)
 /// 1988.
 static bool is_untraced_near(const alpi_occlusion_task *task, uint32_t texel)
 {
-    const uint8_t near = task->near != NULL ? task->near[texel] : ALPI_FAR;
+    const uint8_t proximity = task->proximity != NULL ? task->proximity[texel] : ALPI_FAR;
     const bool coarse = alpi_lattice_is_coarse(task->lattice->texels->pixels[texel]);
-    return is_untraced(task, texel) && (near == ALPI_TOUCHING || (near == ALPI_NEAR && coarse));
+    return is_untraced(task, texel) &&
+           (proximity == ALPI_TOUCHING || (proximity == ALPI_NEAR && coarse));
 }
 
 // --- interpolation -------------------------------------------------------------------------------
@@ -43,7 +44,7 @@ static alpi_lattice_judge start_interpolation(const alpi_occlusion_state *state)
 {
     return (alpi_lattice_judge){.lattice = state->task->lattice,
                                 .order = state->task->order,
-                                .near = state->task->near,
+                                .proximity = state->task->proximity,
                                 .wanted = state->marked,
                                 .near_spread = NEAR_SPREAD,
                                 .near_bend = NEAR_BEND};

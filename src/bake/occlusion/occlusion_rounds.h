@@ -16,10 +16,10 @@ typedef struct alpi_occlusion_task {
     const alpi_receivers *receivers;   // texels of the atlas
     const uint32_t *order;             // [count] texels to gather, a subsequence of lattice->order
     uint32_t count;
-    const uint8_t *near;   // [texels] alpi_nearness, or NULL: all are far
-    alpi_lattice *lattice; // values and states of the texels in `order`: out
-    float *errors;         // [texels] standard error of those in `order`: out
-    float (*bent)[3];      // [texels] bent normals of those in `order`: out; or NULL
+    const uint8_t *proximity; // [texels] alpi_proximity, or NULL: all are far
+    alpi_lattice *lattice;    // values and states of the texels in `order`: out
+    float *errors;            // [texels] standard error of those in `order`: out
+    float (*bent)[3];         // [texels] bent normals of those in `order`: out; or NULL
     alpi_scratch *scratch; // [texels] zero for those in `order`, not so after; NULL: makes its own
     float accuracy;        // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
     float error;           // wanted relative error; 0: all samples of the setup

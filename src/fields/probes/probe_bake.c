@@ -396,12 +396,12 @@ static alp_result sample_layers(probe_job *job, const alpi_probe_light *all)
     for (uint32_t i = 0; i < v->layer_count; i++) {
         one.lamp = job->layers.lamps[i];
         if (job->solution != NULL) {
-            ALP_TRY(alpi_radiosity_show(&job->solution->radiosity, i, NULL, &progress));
+            ALP_TRY(alpi_radiosity_relight(&job->solution->radiosity, i, NULL, &progress));
         }
         ALP_TRY(alpi_probes_light(&job->sampling, &one, v, v->layers[i].coefficients));
     }
     return v->layer_count > 0 && job->solution != NULL
-               ? alpi_radiosity_show(&job->solution->radiosity, ALPI_NONE, NULL, &progress)
+               ? alpi_radiosity_relight(&job->solution->radiosity, ALPI_NONE, NULL, &progress)
                : ALP_OK;
 }
 

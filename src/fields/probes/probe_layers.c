@@ -31,7 +31,7 @@ static alp_result assign(const alp_scene *scene, const alpi_direct_part *parts, 
                   "of all probes alone",
                   ALPI_LAMP_LAYER_LIMIT);
     }
-    layers->light = (alpi_light_layers){.context = scene->context,
+    layers->light = (alpi_layer_arrays){.context = scene->context,
                                         .count = layers->count + 1,
                                         .part_layers = layers->part_layers,
                                         .sky = ALPI_NONE};
@@ -54,7 +54,7 @@ alp_result alpi_probe_layers_plan(const alp_scene *scene, const alpi_lighting *l
 
 void alpi_probe_layers_clear(alp_context *context, alpi_probe_layers *layers)
 {
-    alpi_light_layers_clear(&layers->light);
+    alpi_layer_arrays_clear(&layers->light);
     alpi_release(context, layers->part_layers);
 }
 

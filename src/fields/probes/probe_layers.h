@@ -4,12 +4,12 @@
 #define ALPI_FIELDS_PROBE_LAYERS_H
 
 #include "fields/probes/probes.h"
-#include "maps/radiosity/light_layers.h"
+#include "maps/radiosity/layer_arrays.h"
 
 enum { ALPI_LAMP_LAYER_LIMIT = ALPI_LAYER_LIMIT - 1 }; // the last holds all other light
 
 typedef struct alpi_probe_layers {
-    alpi_light_layers light; // as a radiosity solves them
+    alpi_layer_arrays light; // as a radiosity solves them
     uint32_t *part_layers;
     uint32_t count;                        // of lamps
     uint32_t lamps[ALPI_LAMP_LAYER_LIMIT]; // the light of each in the lighting

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-alp_result alpi_acceleration_create(alp_context *context, size_t blocks, alpi_acceleration *a)
+alp_result alpi_acceleration_create(alp_context *context, size_t patches, alpi_acceleration *a)
 {
     *a = (alpi_acceleration){0};
     for (int d = 0; d < ALPI_ACCELERATION_DEPTH; d++) {
-        ALPI_TRY_NEW(context, a->results[d], blocks);
-        ALPI_TRY_NEW(context, a->residuals[d], blocks);
+        ALPI_TRY_NEW(context, a->results[d], patches);
+        ALPI_TRY_NEW(context, a->residuals[d], patches);
     }
     return ALP_OK;
 }
@@ -31,17 +31,17 @@ typedef struct products_job {
     const alpi_radiosity *radiosity;
 } products_job;
 
-/// Products of the residual f and its differences dᵢ = f − fᵢ, by area: f·d₀, f·d₁, d₀·d₀, d₀·d₁,
+/// Sums of products of the residual f and dᵢ = f − fᵢ, by area: f·d₀, f·d₁, d₀·d₀, d₀·d₁,
 /// d₁·d₁.
 static void sum_products(const void *user, uint32_t begin, uint32_t end,
                          double sums[ALPI_SUM_LIMIT])
 {
     const products_job *job = user;
     const alpi_radiosity *r = job->radiosity;
-    const uint32_t fronts = r->patches.block_count;
+    const uint32_t fronts = r->patches.patch_count;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t b = r->receivers[i];
-        const double area = r->patches.block_areas[b >= fronts ? b - fronts : b];
+        const double area = r->patches.patch_areas[b >= fronts ? b - fronts : b];
         for (int k = 0; k < 3; k++) {
             const double f = (double)r->bounced[b].mean[k] - (double)r->before[b][k];
             const double d0 = f - (double)job->a->residuals[0][b][k];
@@ -55,7 +55,7 @@ static void sum_products(const void *user, uint32_t begin, uint32_t end,
     }
 }
 
-/// Shares of the passes before that make |f − γ₀ d₀ − γ₁ d₁| least.
+/// Shares γ of the earlier passes that minimize |f − γ₀ d₀ − γ₁ d₁|.
 static void find_shares(const double sums[ALPI_SUM_LIMIT], uint32_t count, double shares[2])
 {
     const double determinant = sums[2] * sums[4] - sums[3] * sums[3];

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Where the light of a solution goes, and what of it other geometry keeps from being met.
-#include "maps/radiosity/radiosity.h"
+// Energy balance of a solution, and the gain of texels that lie partly in a solid.
+#include "maps/radiosity/solver.h"
 
 #include "base/tasks.h"
 
 #include <math.h>
 
-/// Share of the rays of the texels beside one, of its chart and not covered, that do not end on the
-/// back of a surface; the rest is what single-sided surfaces hide. 1 where there is no such texel.
-static float open_share_beside(const alpi_radiosity *r, uint32_t texel)
+/// Mean share of rays that do not end on a back, over those neighbours in the same chart that are
+/// outside all solids. 1 if there are none.
+static float neighbours_open_share(const alpi_radiosity *r, uint32_t texel)
 {
     const alpi_patches *p = &r->patches;
     const alpi_texels *t = p->texels;
@@ -18,46 +18,45 @@ static float open_share_beside(const alpi_radiosity *r, uint32_t texel)
     for (int k = 0; k < 9; k++) {
         const uint32_t n = alpi_lattice_texel(p->lattice, t->pages[texel], pixel[0] + k % 3 - 1,
                                               pixel[1] + k / 3 - 1);
-        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && p->blocks[n] != ALPI_NONE &&
+        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && p->patch_of[n] != ALPI_NONE &&
             t->valid[n] == 0 && (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
-            sum += 1.0f - r->lost[p->blocks[n]][1];
+            sum += 1.0f - r->lost[p->patch_of[n]][1];
             count++;
         }
     }
     return count > 0 ? sum / (float)count : 1.0f;
 }
 
-float alpi_radiosity_brighter(const alpi_radiosity *r, uint32_t texel, uint32_t block)
+float alpi_radiosity_visible_gain(const alpi_radiosity *r, uint32_t texel, uint32_t patch)
 {
-    const float most = 4.0f; // so that few rays do not make a light of a corner
+    const float most = 4.0f; // few rays must not turn a corner into a light
     const alpi_texels *texels = r->patches.texels;
     if (texels->valid == NULL || texels->valid[texel] == 0) {
         return 1.0f;
     }
-    const float beside = open_share_beside(r, texel), own = 1.0f - r->lost[block][1];
-    return fminf(fmaxf(beside / fmaxf(own, 1.0f / most), 1.0f), most);
+    const float around = neighbours_open_share(r, texel), own = 1.0f - r->lost[patch][1];
+    return fminf(fmaxf(around / fmaxf(own, 1.0f / most), 1.0f), most);
 }
 
-/// What is summed over texels: of alpi_energy, and what surfaces emit, all of it and what of it
-/// reaches others.
+/// Sums over texels: those of alpi_energy, emitted light, and its part that hits other surfaces.
 enum { RECEIVED, ABSORBED, ESCAPED, LOST_BEHIND, UNSHOT, EMITTED, EMITTED_AT_OTHERS };
 _Static_assert((int)EMITTED_AT_OTHERS < (int)ALPI_SUM_LIMIT, "all are summed at once");
 
 static void add_texel_energy(const alpi_radiosity *r, uint32_t receiver, size_t back, uint32_t t,
                              double sums[ALPI_SUM_LIMIT])
 {
-    const bool gives = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
+    const bool emits = back == 0 || alpi_surface_is_double_sided(r->patches.scene,
                                                                  r->patches.texels->triangles[t]);
     const alpi_patches *p = &r->patches;
     const double area = (double)alpi_texels_area(p->texels, t);
     const float *direct = r->direct[back * p->texels->count + t].mean;
     const float *now = r->bounced[receiver].mean, *before = r->before[receiver];
-    const double brighter = back == 0 ? (double)alpi_radiosity_brighter(r, t, receiver) : 1.0;
-    // Of what is emitted, and of what is reflected, which leaves the open part alone.
+    const double gain = back == 0 ? (double)alpi_radiosity_visible_gain(r, t, receiver) : 1.0;
+    // Lost shares of emitted light, then of reflected light, which only the visible part reflects.
     const double lost[2] = {(double)r->lost[receiver][0], (double)r->lost[receiver][1]};
-    const double escaped = brighter * lost[0], behind = 1.0 - brighter * (1.0 - lost[1]);
-    const double emitted = gives ? ALPI_PI * (double)p->emissions[t] : 0.0;
-    double own[ALPI_SUM_LIMIT] = {0.0}; // of this texel: `sums` would be written and read by turns
+    const double escaped = gain * lost[0], behind = 1.0 - gain * (1.0 - lost[1]);
+    const double emitted = emits ? ALPI_PI * (double)p->emissions[t] : 0.0;
+    double own[ALPI_SUM_LIMIT] = {0.0}; // local: in `sums`, each write would wait for a read
     for (int k = 0; k < 3; k++) {
         const double share = area / 3.0, albedo = (double)p->reflectances[t][k];
         const double first = (double)direct[k] + (double)r->skies[receiver][k];
@@ -80,15 +79,15 @@ static void sum_energy(const void *user, uint32_t begin, uint32_t end, double su
     const alpi_radiosity *r = user;
     const alpi_patches *p = &r->patches;
     for (uint32_t i = begin; i < end; i++) {
-        const size_t back = r->receivers[i] >= p->block_count ? 1 : 0;
-        const uint32_t b = back != 0 ? r->receivers[i] - p->block_count : r->receivers[i];
-        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-            add_texel_energy(r, r->receivers[i], back, p->block_texels[k], sums);
+        size_t back;
+        const uint32_t b = alpi_receiver_patch(p, r->receivers[i], &back);
+        for (uint32_t k = p->patch_first[b]; k < p->patch_first[b + 1]; k++) {
+            add_texel_energy(r, r->receivers[i], back, p->patch_texels[k], sums);
         }
     }
 }
 
-alp_result alpi_radiosity_find_energy(alpi_radiosity *r, const alpi_task_progress *progress)
+alp_result alpi_radiosity_measure_energy(alpi_radiosity *r, const alpi_task_progress *progress)
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
     ALP_TRY(

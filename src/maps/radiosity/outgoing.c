@@ -7,7 +7,7 @@
 #include <math.h>
 
 enum { PARTS = 4, REFLECTED = 0, EMITTED = 3, COVERED = 6, SUMS = 7 };
-// Sums are whole numbers, so that they are the same in whatever order workers add to them.
+// Integer sums do not depend on the order in which workers add to them.
 static const double ONE = 0x1p40; // 16 of them stay below 2^45
 static const float PI = 3.14159265f;
 
@@ -30,8 +30,8 @@ static float find_brightest(const alp_scene *scene)
     return brightest > 0.0f ? brightest : 1.0f;
 }
 
-/// What alpha of a blended surface takes from its light, which whoever shows it takes again; of a
-/// mask 0 or 1.
+/// Alpha of a blended surface, by which its light is divided since the viewer multiplies by it; 0
+/// or 1 for a mask.
 static float alpha_of(const alp_scene *scene, const alpi_uv_cell *cell)
 {
     const uint32_t m = scene->surfaces[scene->triangle_surface[cell->triangle]].material;

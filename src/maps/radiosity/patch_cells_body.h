@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The cells that packets of rays meet, included once for each instruction set. Waiting for memory
-// is what takes the time: triangles, then places, then cells are asked for by one step and read by
-// the next.
+// Cells of packets of rays, included once for each instruction set. Memory latency dominates: each
+// step prefetches what the next one reads, first triangles, then places, then cells.
 #include "maps/radiosity/patch_lookup.h"
 
-/// What the points of a packet find on their way to the cells.
+/// Places of the points of a packet.
 typedef struct packet_places {
-    bool together; // eight points of one triangle
+    bool together; // all eight points lie on one triangle
     const alpi_patch_place *at[ALPI_PACKET];
 } packet_places;
 
-/// Asks for what tells where the points are.
+/// Prefetches the triangles of a packet.
 static void fetch_triangles(const alpi_patches *p, const alpi_hits *hits, uint32_t met,
                             packet_places *places)
 {
@@ -25,7 +24,7 @@ static void fetch_triangles(const alpi_patches *p, const alpi_hits *hits, uint32
     }
 }
 
-/// Eight points of one triangle. @return false: one of them is off its page
+/// Places of eight points of one triangle. @return false: one of them is off its page
 static bool find_together(const alpi_patches *p, const alpi_patch_triangle *t,
                           const alpi_hits *hits, const alpi_patch_place *places[ALPI_PACKET])
 {
@@ -63,7 +62,7 @@ static void find_packet_places(const alpi_patches *p, const alpi_hits *hits, uin
     }
 }
 
-/// Cells of eight fronts of one triangle. @return false: one of them is not that simple
+/// Cells of eight fronts of one triangle. @return false: a point needs the general look-up
 static bool find_cells_together(const alpi_patches *p, const alpi_hits *hits,
                                 const packet_places *places, uint32_t cells[ALPI_PACKET])
 {
@@ -92,7 +91,7 @@ static void find_packet_cells(const alpi_patches *p, const alpi_hits *hits, uint
         if (place != NULL && place->chart == t->chart) {
             texel = place->texel;
         } else if (t->page != ALPI_NONE) {
-            texel = alpi_patches_find_beside(p, t, hits->b1[i], hits->b2[i]);
+            texel = alpi_patches_find_nearest(p, t, hits->b1[i], hits->b2[i]);
         }
         cells[i] = alpi_patches_side_cell(p, texel, (hits->behind >> i & 1u) != 0);
         __builtin_prefetch(p->cells[cells[i]]);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Look-ups of the light of patches: from a point of a triangle to the pixel of its page, and from
-// there to the texel whose light is seen.
 #include "maps/radiosity/patch_lookup.h"
 
 uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2)
@@ -10,12 +8,13 @@ uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float
         return ALPI_NONE;
     }
     const alpi_patch_place *place = alpi_patches_place_at(patches, t, b1, b2);
-    return place != NULL && place->chart == t->chart ? place->texel
-                                                     : alpi_patches_find_beside(patches, t, b1, b2);
+    return place != NULL && place->chart == t->chart
+               ? place->texel
+               : alpi_patches_find_nearest(patches, t, b1, b2);
 }
 
-static void look_up(const void *user, const alpi_surface_point *points, uint32_t count,
-                    vec3 *radiance)
+static void read_cells(const void *user, const alpi_surface_point *points, uint32_t count,
+                       vec3 *radiance)
 {
     const alpi_patches *p = user;
     for (uint32_t i = 0; i < count; i++) {
@@ -27,7 +26,7 @@ static void look_up(const void *user, const alpi_surface_point *points, uint32_t
 
 alpi_surface_light alpi_patches_light(const alpi_patches *patches)
 {
-    return (alpi_surface_light){.reflected = look_up,
+    return (alpi_surface_light){.reflected = read_cells,
                                 .user = patches,
                                 .find =
                                     ALPI_COMPILED_FOR(patches->context, alpi_patches_find_cells),

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How rays find the patches that they meet. alpi_patches_find and alpi_patches_light of patches.h
-// are of this room too.
+// Look-up of light: from a hit to its pixel, its texel and its cell. alpi_patches_find and
+// alpi_patches_light of patches.h are implemented here too.
 #ifndef ALPI_MAPS_PATCH_LOOKUP_H
 #define ALPI_MAPS_PATCH_LOOKUP_H
 
 #include "maps/radiosity/patches.h"
-
-/// Makes `triangles`, and fills `places` (all ones before) and `chart_texels` (ALPI_NONE before),
-/// of patches whose `blocks` say which texels have light of their own.
-/// @return ALP_OK; OUT_OF_MEMORY
-alp_result alpi_patch_places_create(alpi_patches *patches);
-
-// --- shared by look-ups of points and of packets (patch_cells_body.h) ----------------------------
 
 /// The pixel of a point of a triangle, which may be off the page.
 static inline void alpi_patches_pixel(const alpi_patch_triangle *t, float b1, float b2,
@@ -22,7 +15,7 @@ static inline void alpi_patches_pixel(const alpi_patch_triangle *t, float b1, fl
     }
 }
 
-/// NULL: off the page, or on none.
+/// The place of a point; NULL: off the page, or on none.
 static inline const alpi_patch_place *
 alpi_patches_place_at(const alpi_patches *p, const alpi_patch_triangle *t, float b1, float b2)
 {
@@ -34,11 +27,11 @@ alpi_patches_place_at(const alpi_patches *p, const alpi_patch_triangle *t, float
     return on ? &p->places[alpi_lattice_pixel(l, t->page, x, y)] : NULL;
 }
 
-/// The texel of a point whose pixel is off its chart: a corner of the texel at it may still be on.
-uint32_t alpi_patches_find_beside(const alpi_patches *p, const alpi_patch_triangle *t, float b1,
-                                  float b2);
+/// The texel of a point whose pixel is off its chart. The chart may still cover a corner of it.
+uint32_t alpi_patches_find_nearest(const alpi_patches *p, const alpi_patch_triangle *t, float b1,
+                                   float b2);
 
-/// The cell of a side of a texel.
+/// The cell of a side of a texel. Marks a back as seen.
 static inline uint32_t alpi_patches_side_cell(const alpi_patches *p, uint32_t texel, bool behind)
 {
     if (texel == ALPI_NONE) {
@@ -50,14 +43,14 @@ static inline uint32_t alpi_patches_side_cell(const alpi_patches *p, uint32_t te
     if (!p->two_sided) {
         return ALPI_CELL_BLACK;
     }
-    uint8_t *seen = &p->seen_backs[p->blocks[texel]];
+    uint8_t *seen = &p->seen_backs[p->patch_of[texel]];
     if (__atomic_load_n(seen, __ATOMIC_RELAXED) == ALPI_BACK_UNSEEN) {
         __atomic_store_n(seen, ALPI_BACK_SEEN, __ATOMIC_RELAXED);
     }
     return alpi_patches_cell(p, texel, ALPI_BACK);
 }
 
-/// Cells of packets (alpi_light_cells_fn), for any machine and for x86-64-v3: the same.
+/// Cells of packets (alpi_light_cells_fn), with the same result on every instruction set.
 alpi_light_cells_fn alpi_patches_find_cells_baseline, alpi_patches_find_cells_v3;
 
 #endif

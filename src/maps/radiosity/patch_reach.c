@@ -4,15 +4,14 @@
 #include <math.h>
 
 enum { TEXELS_PER_RANGE = 4096 };
-/// Light of neighbours that differs by this share of the mean of all reaches no farther than a
-/// side; and how many sides the most does. What it brings on windows, where strips of sun are
-/// narrower than texels: docs/how/light.md, "Near surfaces"; a share of 1 brought as much, .01
-/// less.
+/// A cell whose neighbours differ by SHARE of the mean light has a reach of one side; the longest
+/// reach is LONGEST sides. docs/how/light.md, "Near rays". On strips of sun narrower than a
+/// texel, a SHARE of 1 gained as much, .01 less.
 static const float SHARE = 0.1f, LONGEST = 8.0f;
 
 typedef struct reach_job {
     const alpi_patches *patches;
-    float level; // mean of the cells' fronts, channels summed
+    float level; // mean over the fronts, channels summed
 } reach_job;
 
 static float level_of(const float cell[4])
@@ -20,7 +19,7 @@ static float level_of(const float cell[4])
     return cell[0] + cell[1] + cell[2];
 }
 
-/// The most by which a neighbour of the same chart differs.
+/// The largest difference to a neighbour of the same chart.
 static float find_contrast(const alpi_patches *p, uint32_t texel, alpi_side side)
 {
     const uint16_t *pixel = p->texels->pixels[texel];
@@ -31,7 +30,7 @@ static float find_contrast(const alpi_patches *p, uint32_t texel, alpi_side side
             const uint32_t t = alpi_lattice_texel(p->lattice, p->texels->pages[texel],
                                                   pixel[0] + dx, pixel[1] + dy);
             if (t == ALPI_NONE || p->texels->charts[t] != p->texels->charts[texel] ||
-                p->blocks[t] == ALPI_NONE) {
+                p->patch_of[t] == ALPI_NONE) {
                 continue;
             }
             most = fmaxf(most, fabsf(level_of(p->cells[alpi_patches_cell(p, t, side)]) - own));
@@ -46,7 +45,7 @@ static alp_result set_range(void *user, uint32_t begin, uint32_t end, uint32_t w
     const reach_job *job = user;
     const alpi_patches *p = job->patches;
     for (uint32_t t = begin; t < end; t++) {
-        if (p->blocks[t] == ALPI_NONE) {
+        if (p->patch_of[t] == ALPI_NONE) {
             continue;
         }
         for (int of = ALPI_FRONT; of <= (p->two_sided ? ALPI_BACK : ALPI_FRONT); of++) {
@@ -63,7 +62,7 @@ static void sum_levels(const void *user, uint32_t begin, uint32_t end, double su
 {
     const alpi_patches *p = user;
     for (uint32_t t = begin; t < end; t++) {
-        if (p->blocks[t] != ALPI_NONE) {
+        if (p->patch_of[t] != ALPI_NONE) {
             sums[0] += (double)level_of(p->cells[alpi_patches_cell(p, t, ALPI_FRONT)]);
             sums[1] += 1.0;
         }
@@ -73,14 +72,14 @@ static void sum_levels(const void *user, uint32_t begin, uint32_t end, double su
 alp_result alpi_patches_set_reach(const alpi_patches *patches, const alpi_task_progress *progress)
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
-    alpi_task_progress told = *progress;
-    told.units_total = 0.0;
-    ALP_TRY(alpi_parallel_sum(patches->context, patches->texels->count, sum_levels, patches, &told,
-                              sums));
+    alpi_task_progress silent = *progress;
+    silent.units_total = 0.0;
+    ALP_TRY(alpi_parallel_sum(patches->context, patches->texels->count, sum_levels, patches,
+                              &silent, sums));
     if (!(sums[0] > 0.0)) {
-        return ALP_OK; // in the dark nothing differs
+        return ALP_OK; // all is dark
     }
     reach_job job = {patches, (float)(sums[0] / sums[1])};
     return alpi_parallel_for(patches->context, patches->texels->count, TEXELS_PER_RANGE, set_range,
-                             &job, &told);
+                             &job, &silent);
 }

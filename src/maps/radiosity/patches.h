@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Light that leaves surfaces, kept on the texels of an atlas: the patches of radiosity.
+// Patches and cells: where radiosity gathers light, and where rays read it.
 //
-// Each texel has a reflectance and, on each side that can be seen, a radiance, which rays look up
-// where they hit: inside the chart of what they hit, never across its border. Light is gathered by
-// blocks of texels of one chart, whose points lie all over the block: bounced light is smooth, and
-// what is gathered for a block is the mean over it.
+// A patch is a group of up to 4 × 4 texels of one chart. It gathers bounced light, which is smooth,
+// once for all its texels: the mean over its area. A cell is the radiance that leaves one side of
+// one texel. A ray reads the cell of the texel that it hits, and never a texel of another chart.
 // Based on: H. Elias. Radiosity (patches with emission, reflectance, incident and excident light).
 #ifndef ALPI_MAPS_PATCHES_H
 #define ALPI_MAPS_PATCHES_H
@@ -13,24 +12,24 @@
 #include "maps/texels/validity.h"
 #include "transport/gather/gather.h"
 
-/// Sides of a patch. Backs are those of double-sided materials.
+/// Sides of a patch. Only double-sided materials have backs.
 typedef enum alpi_side { ALPI_FRONT = 0, ALPI_BACK = 1 } alpi_side;
 
-/// Whether the backs of a block are seen, and so need light.
+/// Whether rays meet the back of a patch: only those backs gather light.
 typedef enum alpi_back { ALPI_BACK_UNSEEN = 0, ALPI_BACK_SEEN, ALPI_BACK_LIT } alpi_back;
 
-/// Where the points of a triangle are: in pixels at + b1 along + b2 across of its page. All that a
-/// look needs of a triangle is here, side by side: most of them miss every cache.
+/// Maps barycentrics to pixels of a page: at + b1 along + b2 across. One record holds all that a
+/// look-up reads of a triangle, since most look-ups miss every cache.
 typedef struct alpi_patch_triangle {
     float at[2], along[2], across[2];
     uint32_t chart;
-    uint32_t page; // ALPI_NONE: it shows no light, as it has no chart
+    uint32_t page; // ALPI_NONE: the triangle has no chart and is black
 } alpi_patch_triangle;
 
-/// What a ray finds at a pixel: one look instead of three, for most of them miss every cache.
+/// The texel that a ray reads at a pixel. One record saves two look-ups that miss every cache.
 typedef struct alpi_patch_place {
     uint32_t chart; // ALPI_NONE: no texel is there
-    uint32_t texel; // whose light it shows: its own, or the nearest of its chart where it has none
+    uint32_t texel; // itself, or the nearest of its chart with light of its own
 } alpi_patch_place;
 
 typedef struct alpi_patches {
@@ -39,50 +38,49 @@ typedef struct alpi_patches {
     const alp_atlas *atlas;
     const alpi_texels *texels;
     const alpi_lattice *lattice;
-    const uint8_t *near;            // of the block rule, while blocks are made
+    const uint8_t *proximity;       // of the rule; NULL after alpi_patches_create
     alpi_patch_triangle *triangles; // [triangles of the scene]
     alpi_patch_place *places;       // [pages][height][width]
     uint32_t *chart_texels;         // [charts] a texel of each, ALPI_NONE where it has none
     float (*reflectances)[3];       // [texels] albedo, mean over the texel
     float *emissions; // [texels] radiance of the front, mean over the texel and channels
-    uint32_t block_count;
-    uint32_t *blocks;                     // [texels] block of each; ALPI_NONE: no light of its own
-    uint32_t *block_first, *block_texels; // texels of each block, one after the other
-    float *block_ends;   // share of a block's area up to the end of each of those; the last is 1
-    double *block_areas; // [blocks] m²
-    bool two_sided; // some material is double-sided: then cells and receivers of backs follow those
-                    // of fronts
-    float (*cells)[4]; // [CELL_FIRST + sides × texels] radiance W·sr⁻¹·m⁻² that is reflected
-    uint8_t *seen_backs; // [blocks] alpi_back, if two_sided; rays of many threads say SEEN
+    uint32_t patch_count;
+    uint32_t *patch_of;     // [texels] patch of each; ALPI_NONE: no light of its own
+    uint32_t *patch_first;  // [patches + 1] where the texels of each begin in patch_texels
+    uint32_t *patch_texels; // texels of all patches, one patch after the other
+    float *patch_ends;      // share of a patch's area up to the end of each of those; the last is 1
+    double *patch_areas;    // [patches] m²
+    bool two_sided;      // any material is double-sided; cells and receivers of backs then follow
+                         // those of fronts
+    float (*cells)[4];   // [CELL_FIRST + sides × texels] reflected radiance W·sr⁻¹·m⁻²
+    uint8_t *seen_backs; // [patches] alpi_back, if two_sided; look-ups set SEEN atomically
 } alpi_patches;
 
-/// How texels are put together.
-typedef struct alpi_block_rule {
-    uint32_t spacing;    // side of a block in texels, [1, 16]; 1: each texel is one
-    const uint8_t *near; // [texels] alpi_nearness, or NULL. Near another surface bounced light
-                         // changes fast: blocks are half as long there (texels, of an odd
-                         // spacing), and texels where another surface touches one of theirs, or
-                         // one lies in a solid in part
-} alpi_block_rule;
+/// How texels are grouped.
+typedef struct alpi_patch_rule {
+    uint32_t spacing; // side of a patch in texels, [1, 16]; 1: each texel is a patch
+    // [texels] alpi_proximity, or NULL. Bounced light changes fast near other surfaces: there, the
+    // side is halved (1 if the spacing is odd). It is 1 where a surface touches any of the texels,
+    // or any lies partly in a solid.
+    const uint8_t *proximity;
+} alpi_patch_rule;
 
 /// @param order [count] texels with light of their own, neighbours together
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count, const alpi_block_rule *rule,
+                               const uint32_t *order, uint32_t count, const alpi_patch_rule *rule,
                                alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
-/// Keeps what it takes to look light up in the cells, and lets go of the rest: blocks, as receivers
-/// too, and what texels reflect and emit.
-/// @param lit_again whether the light in the cells will change: which block each texel is of, and
-///     what it reflects, stay
-void alpi_patches_settle(alpi_patches *patches, bool lit_again);
-/// Whether those of a scene have backs.
+/// Frees all but the data of look-ups: the patches, also as receivers, and materials.
+/// @param relit whether cells will be lit again: patch_of and reflectances then stay
+void alpi_patches_trim(alpi_patches *patches, bool relit);
+/// Whether any material of a scene is double-sided.
 bool alpi_patches_are_two_sided(const alp_scene *scene);
 
-/// Texel, ALPI_NONE where there is none, that shows the light at a point.
+/// The texel that shows the light at a point; ALPI_NONE: none does.
 uint32_t alpi_patches_find(const alpi_patches *patches, uint32_t triangle, float b1, float b2);
 
-/// How gatherers see the light in `cells`.
+/// The light in the cells, for gatherers.
 alpi_surface_light alpi_patches_light(const alpi_patches *patches);
 static inline uint32_t alpi_patches_cell(const alpi_patches *patches, uint32_t texel,
                                          alpi_side side)
@@ -90,10 +88,9 @@ static inline uint32_t alpi_patches_cell(const alpi_patches *patches, uint32_t t
     return ALPI_CELL_FIRST + (side == ALPI_BACK ? patches->texels->count : 0) + texel;
 }
 
-/// Texels as receivers: their fronts, then, if two_sided, their backs.
+/// Texels as receivers: fronts, then backs if two_sided.
 alpi_receivers alpi_patches_texel_receivers(const alpi_patches *patches);
-/// Blocks as receivers, whose points are spread over their areas: fronts, then, if two_sided,
-/// backs.
-alpi_receivers alpi_patches_block_receivers(const alpi_patches *patches);
+/// Patches as receivers, with points spread over their areas: fronts, then backs if two_sided.
+alpi_receivers alpi_patches_receivers(const alpi_patches *patches);
 
 #endif

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Direct light of the patches: lights, sky, and emissive surfaces that hemicubes count.
-#include "maps/radiosity/radiosity.h"
-
+// Direct light of texels: lights, sky, and emissive surfaces that hemicubes count.
 #include "maps/radiosity/counted_emitters.h"
+#include "maps/radiosity/solver.h"
 
-/// Adds the emissive surfaces that gatherers count.
+/// Adds the light of emissive surfaces that options.counted measures.
 static alp_result add_counted(const alpi_radiosity *radiosity, const alpi_receivers *texels,
                               const uint32_t *list, uint32_t count,
                               const alpi_task_progress *progress, alpi_direct_output *output)
@@ -52,5 +51,17 @@ alp_result alpi_radiosity_direct(const alpi_radiosity *radiosity, const uint32_t
     if (result == ALP_OK) {
         result = add_counted(radiosity, &texels, list, count, progress, output);
     }
+    return result;
+}
+
+alp_result alpi_solver_direct(const alpi_solver *solver, const uint32_t *list, uint32_t count,
+                              alpi_directional *directional)
+{
+    alpi_radiosity *r = solver->r;
+    alpi_direct_output output = {.values = r->direct, .directional = directional};
+    const alp_result result = alpi_radiosity_direct(r, list, count, r->options.direct_samples,
+                                                    r->options.seed, &solver->progress, &output);
+    r->rays += output.rays;
+    r->direct_draw = output.draw;
     return result;
 }

@@ -16,8 +16,8 @@ static alp_result make_texels(const alpi_solution_options *o, alp_progress_fn *p
     return alpi_lattice_create(s->atlas, &s->texels, &s->lattice);
 }
 
-/// Lists the texels that have light of their own, as a bake does: what lies wholly inside other
-/// geometry would be black, and shows what is beside it.
+/// Lists the texels with light of their own, as a bake does. Texels completely inside a solid would
+/// be black; they show their neighbours' light.
 static alp_result list_texels(const alpi_solution_options *o, const alpi_task_progress *progress,
                               alpi_solution *s)
 {
@@ -45,13 +45,13 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
                         alpi_solution *s)
 {
     s->rays = (alpi_cosine_rays){.context = s->context,
-                                 .samples = o->block_rays > 0 ? o->block_rays
-                                                              : 4 * ALPI_RADIOSITY_BLOCK_RAYS,
+                                 .samples = o->patch_rays > 0 ? o->patch_rays
+                                                              : 4 * ALPI_RADIOSITY_PATCH_RAYS,
                                  .replicates = 1,
                                  .seed = o->seed};
     s->gatherer = alpi_cosine_rays_gatherer(&s->rays);
     alpi_radiosity_options options = alpi_radiosity_options_default();
-    options.blocks.near = s->validity.near;
+    options.patch_rule.proximity = s->validity.proximity;
     options.context = s->context;
     options.scene = o->scene;
     options.tracer = o->tracer;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The radiosity of a whole scene, on an atlas of its own: light that surfaces reflect, for whoever
-// looks at them and bakes nothing.
+// The radiosity of a whole scene on an atlas of its own, for pictures and probes.
 #ifndef ALPI_MAPS_SOLUTION_H
 #define ALPI_MAPS_SOLUTION_H
 
@@ -18,12 +17,11 @@ typedef struct alpi_solution_options {
     bool one_sided;                // rays pass single-sided materials from behind
     uint32_t bounces;              // as of alpi_radiosity_options
     double tolerance;              // the same
-    uint32_t block_rays;           // cosine rays of a block; 0: four times the least
-    uint32_t direct_samples;       // of each light at each texel; 0: as of
-                                   // alpi_radiosity_options_default
+    uint32_t patch_rays;           // cosine rays of a patch; 0: four times the least
+    uint32_t direct_samples;       // of each light at each texel; 0: the default of radiosity.h
     double ray_limit;              // of the passes; 0: none
-    alpi_light_layers *layers;     // NULL, or as of alpi_radiosity_options
-    uint64_t kept_limit; // bytes that kept rays may take; 0: as of alpi_radiosity_options_default
+    alpi_layer_arrays *layers;     // NULL, or as of alpi_radiosity_options
+    uint64_t kept_limit;           // bytes of kept rays; 0: the default of radiosity.h
     uint64_t seed;
 } alpi_solution_options;
 
@@ -33,7 +31,7 @@ typedef struct alpi_solution {
     alpi_texels texels;
     alpi_lattice lattice;
     alpi_validity validity;
-    uint32_t *order; // [count] texels that are not wholly inside other geometry
+    uint32_t *order; // [count] texels that are not completely inside a solid
     uint32_t count;
     alpi_cosine_rays rays;
     alpi_gatherer gatherer;
@@ -47,7 +45,7 @@ alp_result alpi_solution_create(const alpi_solution_options *options, alp_progre
                                 void *progress_user, alpi_solution **solution);
 void alpi_solution_destroy(alpi_solution *solution); // NULL does nothing
 
-/// What surfaces reflect after all bounces but the last: to be gathered once more.
+/// Light that surfaces reflect after all bounces but the last, which the caller gathers.
 alpi_surface_light alpi_solution_light(const alpi_solution *solution);
 
 #endif

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The adaptive lattice: every 4th texel is traced, those between are interpolated where the traced
-// ones agree, and traced where they do not.
+// The adaptive lattice: every 4th texel of every 4th row is traced. Texels between are interpolated
+// if the traced ones agree, and traced otherwise. The flood finds small details that the lattice
+// misses: it traces around texels that differ from a traced neighbour.
 // Based on: H. Elias. Radiosity (the adaptive light map: spacing 4, passes of two types, half the
-// spacing). What such a lattice misses, small details, the flood of its judge finds.
+// spacing).
 #ifndef ALPI_MAPS_LATTICE_H
 #define ALPI_MAPS_LATTICE_H
 
@@ -11,26 +12,26 @@
 enum { ALPI_LATTICE_SPACING = 4, ALPI_STENCIL_LIMIT = 8 };
 
 typedef enum alpi_texel_state {
-    ALPI_TEXEL_OPEN = 0, // nothing is known yet
+    ALPI_TEXEL_OPEN = 0, // neither traced nor interpolated yet
     ALPI_TEXEL_TRACED,
     ALPI_TEXEL_INTERPOLATED
 } alpi_texel_state;
 
-/// Neighbourhood of the texels of an atlas, and what is known of each.
+/// The texels of an atlas as a grid, with the state and value of each.
 typedef struct alpi_lattice {
     alp_context *context;
     const alpi_texels *texels;
     uint32_t width, height, page_count;
     uint32_t *grid;  // [pages][height][width] texel, ALPI_NONE where there is none
-    uint32_t *order; // [count] all texels, tile by tile: neighbours in it are neighbours in space
+    uint32_t *order; // [count] all texels, tile by tile, so that successive ones are close
     uint8_t *states; // [count] alpi_texel_state
     float *values;   // [count] where the state is not OPEN
-    bool straight;   // stencils are linear where a cubic would do too: less of the noise, and no
-                     // more of the bend than the judge lets pass
-    bool along_borders; // a border's texels may be interpolated along it: alpi_lattice_stencil
+    bool straight;   // all stencils are linear: less noise than a cubic, and the judge limits the
+                     // error
+    bool along_borders; // texels at a border may be interpolated along it: alpi_lattice_stencil
 } alpi_lattice;
 
-/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by who watches the context
+/// @return ALP_OK; OUT_OF_MEMORY; CANCELLED by the watch of the context
 alp_result alpi_lattice_create(const alp_atlas *atlas, const alpi_texels *texels,
                                alpi_lattice *lattice);
 void alpi_lattice_destroy(alpi_lattice *lattice);
@@ -45,7 +46,7 @@ static inline size_t alpi_lattice_pixel(const alpi_lattice *lattice, uint32_t pa
 /// The texel at a pixel, ALPI_NONE where there is none or the pixel is off the page.
 uint32_t alpi_lattice_texel(const alpi_lattice *lattice, uint32_t page, int64_t x, int64_t y);
 
-/// What an interpolated texel is made of: value = Σ weights · values of `texels`.
+/// A stencil interpolates a texel: value = Σ weights · values of `texels`.
 typedef struct alpi_stencil {
     uint32_t count;
     uint32_t texels[ALPI_STENCIL_LIMIT];
@@ -54,31 +55,30 @@ typedef struct alpi_stencil {
     float bend; // |cubic − linear| of the worse axis; without a cubic a quarter of the difference
 } alpi_stencil;
 
-/// The passes, coarsest first. Pass 0 is the lattice; then, for spacing 4 and 2, the texels halfway
-/// between two (type 1) and those in the middle of four (type 2). Of spacing 2, type 1 goes in two:
-/// those in rows and columns of the lattice first (3), for the sake of borders.
+/// The passes, coarsest first. Pass 0 is the lattice. For spacing 4 and 2 follow the texels halfway
+/// between two (type 1) and those in the middle of four (type 2). Type 1 of spacing 2 takes two
+/// passes, rows and columns of the lattice first (3), so that borders can use them.
 enum { ALPI_LATTICE_PASSES = 6 };
 /// The pass a texel belongs to, by its pixel.
 uint32_t alpi_lattice_pass(const uint16_t pixel[2]);
-/// Texels in their order, pass by pass. @param order [count]   @param by_pass [count] out
+/// Splits an order by passes. @param order [count]   @param by_pass [count] out
 /// @param first out: where each pass begins in it, and where the last ends
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
                               uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASSES + 1]);
 /// Whether a texel belongs to the lattice of half the spacing, every second of every second row.
 bool alpi_lattice_is_coarse(const uint16_t pixel[2]);
-/// Distance in texels to the nearest texels that pass `pass`, from 1 on, interpolates from inside a
-/// chart: 2, 2, 1, 1, 1.
+/// Distance in texels to the nearest texels of the stencils of a pass, from 1 on, inside a chart:
+/// 2, 2, 1, 1, 1.
 uint32_t alpi_lattice_reach(uint32_t pass);
 
-/// How texel t of a pass would be interpolated: cubic where the row or column goes on far enough,
-/// else, and in straight lattices, linear. A neighbour is missing if it is in another chart, or
-/// turned away. Then, with `along_borders`, a texel in the middle of four takes the two of them
-/// that lie along the border, and one of the pass before the last the two of that before it that
-/// do.
-/// @return false: something is missing
+/// The stencil of a texel: cubic if the row or column is long enough and the lattice not straight,
+/// else linear. A neighbour is missing if it is in another chart or turned away. With
+/// `along_borders`, a texel in the middle of four then takes two along the border, and a texel of
+/// the pass before the last takes two of the pass before it.
+/// @return false: texels are missing
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil);
-/// Not clamped: a bound on every pass would darken what is nearly open.
+/// The interpolated value, not clamped: clamping each pass would darken nearly open texels.
 float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *stencil);
 
 enum { ALPI_NEIGHBOUR_LIMIT = 8 };
@@ -90,11 +90,11 @@ uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
 /// neighbours; half its step to a traced one where a neighbour is missing; 0 with none traced.
 float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel);
 
-/// Who says which texels may be interpolated.
+/// The judge decides which texels may be interpolated.
 typedef struct alpi_lattice_judge {
-    alpi_lattice *lattice; // gets states and values of what is interpolated
+    alpi_lattice *lattice; // states and values of interpolated texels are written
     const uint32_t *order;
-    const uint8_t *near;          // [texels] alpi_nearness, or NULL: all are far
+    const uint8_t *proximity;     // [texels] alpi_proximity, or NULL: all are far
     uint8_t *wanted;              // [texels] to be traced, in and out
     float spread, bend, kink;     // the most there may be, times `noise`
     float near_spread, near_bend; // shares of spread and bend, for texels near another surface
@@ -104,7 +104,8 @@ typedef struct alpi_lattice_judge {
     bool flood;    // instead, interpolated ones of every pass by their kinks
 } alpi_lattice_judge;
 
-/// Interpolates texels order[begin] to order[end − 1] that may be, and wants the others traced.
+/// Interpolates those of the texels order[begin] to order[end − 1] that may be, and marks the
+/// others as wanted.
 void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, uint32_t end);
 
 #endif

@@ -32,7 +32,7 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
-    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_nearness; the scratch's marks
+    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_proximity; the scratch's marks
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry; the scratch's
 } validity_job;
 
@@ -111,7 +111,7 @@ static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_
                 }
             }
         }
-        job->out->near[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
+        job->out->proximity[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
     }
     return ALP_OK;
 }
@@ -341,7 +341,7 @@ static void judge(const validity_job *job, const judged *all)
     const uint32_t suspicious = find_suspicious(job, all);
     uint32_t asked = suspicious;
     for (uint32_t k = 0; k < all->count; k++) {
-        asked |= (job->out->near[all->texels[k]] == ALPI_TOUCHING ? 1u : 0u) << k;
+        asked |= (job->out->proximity[all->texels[k]] == ALPI_TOUCHING ? 1u : 0u) << k;
     }
     const uint32_t inside = alpi_are_inside(job->setup->tracer, job->texels->atlas->scene,
                                             all->middles, all->sides, asked);
@@ -388,7 +388,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     judged all = {.count = 0};
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
-        if (job->out->near[t] != ALPI_FAR) {
+        if (job->out->proximity[t] != ALPI_FAR) {
             alpi_texels_point(job->texels, t, &all.middles[all.count]);
             all.sides[all.count] = alpi_texels_side(job->texels, t);
             all.texels[all.count++] = t;
@@ -458,9 +458,9 @@ alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratc
                               alpi_validity *validity)
 {
     *validity = (alpi_validity){.context = context, .scratch = scratch};
-    validity->near = ALPI_NEW(context, uint8_t, texels);
+    validity->proximity = ALPI_NEW(context, uint8_t, texels);
     validity->dropped = ALPI_NEW(context, uint8_t, texels);
-    if (validity->near == NULL || validity->dropped == NULL) {
+    if (validity->proximity == NULL || validity->dropped == NULL) {
         alpi_validity_destroy(validity);
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -510,7 +510,7 @@ alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_re
 void alpi_validity_destroy(alpi_validity *validity)
 {
     if (validity->context != NULL) {
-        alpi_release(validity->context, validity->near);
+        alpi_release(validity->context, validity->proximity);
         alpi_release(validity->context, validity->dropped);
     }
     *validity = (alpi_validity){0};

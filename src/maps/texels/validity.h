@@ -8,18 +8,18 @@
 #include "transport/occlusion/occlusion.h"
 
 /// How far another surface is from a texel.
-typedef enum alpi_nearness {
+typedef enum alpi_proximity {
     ALPI_FAR = 0,
     ALPI_NEAR,    // some texels: interpolate with care
     ALPI_TOUCHING // about one: occlusion may change within a texel
-} alpi_nearness;
+} alpi_proximity;
 
 /// What a few short rays found around the texels.
 typedef struct alpi_validity {
     alp_context *context;
-    uint8_t *near;    // [texels] alpi_nearness
-    uint8_t *dropped; // [texels] 1: wholly inside other geometry and beside one that is not: its
-                      // value must come from there
+    uint8_t *proximity; // [texels] alpi_proximity
+    uint8_t *dropped;   // [texels] 1: wholly inside other geometry and beside one that is not: its
+                        // value must come from there
     alpi_scratch *scratch;                                    // borrowed
     uint64_t rays, moved_count, dropped_count, lowered_count; // of the last look
 } alpi_validity;

@@ -82,8 +82,8 @@ static void add_surfaces(const alpi_gather_scene *from, const met_points *met, c
     }
 }
 
-void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET])
+void alpi_gather_trace(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
+                       bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET])
 {
     const vec3 black = {0.0f, 0.0f, 0.0f};
     alpi_trace_filter filter = from->filter;
@@ -319,7 +319,7 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
     meet_cells(from, packets, count, coherent, hits, cells);
 }
 
-void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
+void alpi_gather_write(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums)
 {
     alpi_gather_finish(job->gatherer, sums, &job->values[receiver]);
     for (int k = 0; k < 3 && job->skies != NULL; k++) {
@@ -393,16 +393,16 @@ static void gather_met_cells(const alpi_gather_job *job, uint32_t receiver, uint
     }
 }
 
-/// The same of packets that meet whatever there is.
-static void look_around(const alpi_gather_job *job, uint32_t first, uint32_t count,
+/// Traces a batch of packets in any scene, with panes and light outside cells.
+static void trace_batch(const alpi_gather_job *job, uint32_t first, uint32_t count,
                         alpi_gather_packet *packets, const alpi_gather_ways *ways,
                         alpi_gather_sums *sums)
 {
     const alpi_gatherer *g = job->gatherer;
     for (uint32_t k = 0; k < count; k++) {
         vec3 radiance[ALPI_PACKET];
-        alpi_gather_look(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
-                         NULL);
+        alpi_gather_trace(job->from, &packets[k].rays, packets[k].active, g->coherent, radiance,
+                          NULL);
         alpi_gather_add(g, first + k, radiance, sums);
         if (job->directional != NULL) { // panes move where rays start, not where they go
             alpi_gather_add_directional(g, first + k, &packets[k], &ways[k], radiance, sums);
@@ -422,7 +422,7 @@ static void gather_batch(const alpi_gather_job *job, uint32_t receiver, uint32_t
     if (cells) {
         gather_met_cells(job, receiver, first, count, packets, ways, sums);
     } else {
-        look_around(job, first, count, packets, ways, sums);
+        trace_batch(job, first, count, packets, ways, sums);
     }
 }
 
@@ -444,7 +444,7 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
                 return ALP_ERROR_CANCELLED;
             }
         }
-        alpi_gather_put(job, receiver, &sums);
+        alpi_gather_write(job, receiver, &sums);
     }
     return ALP_OK;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What all gatherers share: what their rays bring back, and how they are asked.
+// Gathering: irradiance at receivers, by the rays of a gatherer.
 #ifndef ALPI_TRANSPORT_GATHER_H
 #define ALPI_TRANSPORT_GATHER_H
 
@@ -11,34 +11,33 @@
 
 #include <assert.h>
 
-/// What a gatherer looks at; all borrowed. Emissive surfaces and the sky count where a ray happens
-/// to meet them, or else are direct light's, which knows better ways to them (alpi_direct). Lamps
-/// and suns always are: no ray meets a point, and a sun's disk is smaller than what is between two
-/// rays, so that it would count in one place for many times what it gives and in most for nothing.
-/// (A sun in the picture of a sky is the sky's.)
+/// The scene and the light that rays meet; all borrowed. Emissive surfaces and the sky count where
+/// a ray meets them, or they are direct light, which has better samples (alpi_direct). Lamps and
+/// suns always are direct light: no ray meets a point, and a sun's disk is smaller than the gaps
+/// between rays. A sun in the picture of a sky belongs to the sky.
 typedef struct alpi_gather_scene {
     const alp_scene *scene;
     const alpi_tracer *tracer;
     const alpi_lighting *lighting; // NULL: no sky
-    alpi_trace_filter filter;      // panes are seen to here, whatever it says
+    alpi_trace_filter filter;      // its panes are ignored: gathering handles them
     alpi_surface_light light;
-    bool emitters, sky; // that they count
-    // NULL, or how rays go on that meet surface light in cells nearer than near_reach of the cell's
-    // sides (near_rays.h): paths of a few bounces that end with that light. Of all light there is,
-    // the sky's and emitters' too. Of gather jobs whose `lost` is NULL.
+    bool emitters, sky; // whether they count
+    // Path tracer for rays that hit a cell closer than near_reach times its ALPI_CELL_SIDE
+    // (near_rays.h); NULL disables it. Its paths have a few bounces, meet all light with sky and
+    // emitters, and end in cells. Only for gather jobs whose `lost` is NULL.
     const alpi_reference *near;
     float near_reach;
 } alpi_gather_scene;
 
-/// Radiance that comes back along rays, through panes on their way.
+/// Traces rays, through panes, and returns the radiance of their hits.
 /// @param rays     unit directions; destroyed
 /// @param active   bit i: lane i
 /// @param coherent the rays of the packet leave in about one direction
 /// @param radiance out; 0 of lanes that are not active
-/// @param open     NULL, or out: what panes leave of the light of each ray that leaves the scene; 0
-///                 of the others
-void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
-                      bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET]);
+/// @param open     NULL, or out: transmittance of panes along each ray that leaves the scene; 0 of
+///                 the others
+void alpi_gather_trace(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
+                       bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET]);
 
 /// Rays of one packet, as a gatherer spreads them.
 typedef struct alpi_gather_packet {
@@ -52,23 +51,23 @@ typedef struct alpi_gather_ways {
 } alpi_gather_ways;
 
 /// Aims packets [first, first + count) of a receiver, at most ALPI_GATHER_BATCH. Called by many
-/// threads. What is random in it is keyed by the receiver.
-/// @param packets, ways [count] out; ways: NULL if nobody wants them
+/// threads. The receiver keys its random numbers.
+/// @param packets, ways [count] out; ways may be NULL
 typedef void alpi_aim_fn(const void *user, const alpi_receivers *receivers, uint32_t receiver,
                          uint32_t first, uint32_t count, alpi_gather_packet *packets,
                          alpi_gather_ways *ways);
 enum { ALPI_GATHER_BATCH = ALPI_LIGHT_BATCH, ALPI_GATHER_REPLICATE_LIMIT = 8 };
 
-/// A way to spread rays over what a receiver sees, hemicube or cosine rays: E = π Σ weight · L.
+/// Distribution of rays over the hemisphere, hemicube or cosine rays: E = π Σ weight · L.
 typedef struct alpi_gatherer {
     alpi_aim_fn *aim;
-    const void *user;                    // what it reads
+    const void *user;                    // of aim
     uint32_t packet_count;               // of each receiver
     const float (*weights)[ALPI_PACKET]; // [packet_count], they sum to 1; NULL: all alike
     uint32_t replicates; // of the same number of packets, which divides packet_count, one after the
                          // other; 1: the error is not known
     bool coherent;       // the rays of a packet leave in about one direction
-    uint64_t seed;       // of what is random where rays go on
+    uint64_t seed;       // of the paths of near rays
 } alpi_gatherer;
 
 /// Packets of a replicate.
@@ -76,7 +75,7 @@ static inline uint32_t alpi_gather_packets_each(const alpi_gatherer *gatherer)
 {
     return gatherer->packet_count / gatherer->replicates;
 }
-/// Packets make replicates that are all as large, or light would be lost.
+/// Checks that all replicates have the same number of packets; otherwise light would be lost.
 static inline void alpi_gather_check(const alpi_gatherer *gatherer)
 {
     (void)gatherer;
@@ -90,7 +89,7 @@ static inline uint32_t alpi_gather_replicate(const alpi_gatherer *gatherer, uint
     return gatherer->replicates == 1 ? 0 : packet / alpi_gather_packets_each(gatherer);
 }
 
-/// What is gathered, where and how; all borrowed.
+/// A gather job; all borrowed.
 typedef struct alpi_gather_job {
     alp_context *context;
     const alpi_gather_scene *from;
@@ -100,18 +99,18 @@ typedef struct alpi_gather_job {
     uint32_t count;
     // Out, of the receivers listed.
     alpi_reference_value *values;  // [receivers] E [W·m⁻²]; variance 0 with one replicate
-    float (*skies)[3];             // [receivers] or NULL: what of E is the sky's. Of surface light
-                                   // in cells without panes; else 0
+    float (*skies)[3];             // [receivers] or NULL: the sky's part of E, if surface light is
+                                   // in cells and there are no panes; else 0
     float (*lost)[2];              // [receivers] or NULL: weights of the rays that left the scene,
-                                   // and of those that met a surface's black back; the same
+                                   // and of those that met a black back; under the same conditions
     alpi_directional *directional; // [receivers] or NULL
-    bool directional_without_sky;  // of surface light in cells without panes
+    bool directional_without_sky;  // under the same conditions
 } alpi_gather_job;
 
 /// @return ALP_OK; CANCELLED. The same bits for any number of workers.
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress);
 
-/// Whether rays meet nothing but surface light that is kept in cells, and the sky.
+/// Whether rays meet only surface light in cells and the sky.
 bool alpi_gather_meets_cells(const alpi_gather_scene *from);
 /// The cells that the rays of packets meet, at most ALPI_GATHER_BATCH. Needs
 /// alpi_gather_meets_cells.
@@ -122,7 +121,7 @@ void alpi_gather_cells(const alpi_gather_scene *from, const alpi_gather_packet *
 /// Sums over the rays of one receiver, in their order.
 typedef struct alpi_gather_sums {
     double light[ALPI_GATHER_REPLICATE_LIMIT][3]; // Σ weight · L
-    double sky[3];                                // of it
+    double sky[3];                                // part of it
     double lost[2];
     alpi_directional_sums directional;
 } alpi_gather_sums;
@@ -145,7 +144,7 @@ void alpi_gather_add_directional(const alpi_gatherer *gatherer, uint32_t packet,
                                  const vec3 radiance[ALPI_PACKET], alpi_gather_sums *sums);
 void alpi_gather_finish(const alpi_gatherer *gatherer, const alpi_gather_sums *sums,
                         alpi_reference_value *value);
-/// Writes what a receiver gathered to the job's outputs.
-void alpi_gather_put(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums);
+/// Writes the sums of a receiver to the job's outputs.
+void alpi_gather_write(const alpi_gather_job *job, uint32_t receiver, const alpi_gather_sums *sums);
 
 #endif

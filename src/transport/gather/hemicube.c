@@ -257,15 +257,15 @@ static vec3 start_of(const alpi_receiver_point *p)
     return vec3_mad(p->position, p->offset, p->geometric_normal);
 }
 
-void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receiver_point *point,
-                        const alpi_hemicube_frame *frame, uint32_t packet,
-                        vec3 radiance[ALPI_PACKET])
+void alpi_hemicube_trace(const alpi_hemicube_options *options, const alpi_receiver_point *point,
+                         const alpi_hemicube_frame *frame, uint32_t packet,
+                         vec3 radiance[ALPI_PACKET])
 {
     alpi_rays rays;
     const alpi_hemicube_packet *pixels = &options->cube->packets[packet];
     options->cube->aim(pixels, start_of(point), frame, &rays);
-    alpi_gather_look(&options->from, &rays, pixels->active,
-                     options->cube->resolution >= COHERENT_FROM, radiance, NULL);
+    alpi_gather_trace(&options->from, &rays, pixels->active,
+                      options->cube->resolution >= COHERENT_FROM, radiance, NULL);
 }
 
 alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
@@ -279,7 +279,7 @@ alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
         if (k % PACKETS_PER_LOOK == 0 && !alpi_loop_goes_on(options->context)) {
             return ALP_ERROR_CANCELLED;
         }
-        alpi_hemicube_look(options, point, frame, k, radiance);
+        alpi_hemicube_trace(options, point, frame, k, radiance);
         for (int i = 0; i < ALPI_PACKET; i++) {
             const double weight = (double)cube->weights[k][i];
             sum[0] += weight * (double)radiance[i].x;

@@ -94,7 +94,7 @@ typedef struct alpi_hemicube_options {
 alp_result alpi_hemicube_gather(const alpi_hemicube_options *options,
                                 const alpi_receiver_point *point, uint64_t receiver,
                                 float irradiance[3]);
-/// The same with the cube as it is told to stand; `forward` is the axis, not the shading normal.
+/// The same with a given frame of the cube, whose `forward` need not be the shading normal.
 alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
                                    const alpi_receiver_point *point,
                                    const alpi_hemicube_frame *frame, float irradiance[3]);
@@ -103,8 +103,8 @@ alp_result alpi_hemicube_gather_in(const alpi_hemicube_options *options,
 alpi_gatherer alpi_hemicube_gatherer(const alpi_hemicube_options *options);
 
 /// Radiance along the rays of one packet, before weights; for pictures.
-void alpi_hemicube_look(const alpi_hemicube_options *options, const alpi_receiver_point *point,
-                        const alpi_hemicube_frame *frame, uint32_t packet,
-                        vec3 radiance[ALPI_PACKET]);
+void alpi_hemicube_trace(const alpi_hemicube_options *options, const alpi_receiver_point *point,
+                         const alpi_hemicube_frame *frame, uint32_t packet,
+                         vec3 radiance[ALPI_PACKET]);
 
 #endif

@@ -76,7 +76,7 @@ alp_result alpi_hemicube_draw_view(const alpi_hemicube_options *options,
             *image = NULL;
             return ALP_ERROR_CANCELLED;
         }
-        alpi_hemicube_look(options, point, frame, k, radiance);
+        alpi_hemicube_trace(options, point, frame, k, radiance);
         draw_packet(cube, k, radiance, weighted, *image);
     }
     return ALP_OK;

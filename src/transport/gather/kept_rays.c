@@ -142,7 +142,7 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
             }
             alpi_gather_add_cells(job->gatherer, p, cells[p], job->from->light.cells, &sums);
         }
-        alpi_gather_put(&without_sky, receiver, &sums);
+        alpi_gather_write(&without_sky, receiver, &sums);
     }
     return ALP_OK;
 }

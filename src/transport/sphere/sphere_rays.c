@@ -126,8 +126,8 @@ static void light_through_panes(const sphere_run *run, uint32_t count, alpi_sphe
     for (uint32_t k = 0; k < count; k++) {
         alpi_rays rays = packets[k].rays; // panes move where they start
         vec3 radiance[ALPI_PACKET];
-        alpi_gather_look(&run->job->rays->from, &rays, 0xffu, run->tracing.coherent, radiance,
-                         NULL);
+        alpi_gather_trace(&run->job->rays->from, &rays, 0xffu, run->tracing.coherent, radiance,
+                          NULL);
         for (int i = 0; i < ALPI_PACKET; i++) {
             packets[k].light[0][i] = radiance[i].x;
             packets[k].light[1][i] = radiance[i].y;

@@ -66,7 +66,7 @@ static alp_result run(map_setup *s, const alpi_occlusion_task *options, alpi_lat
     task.receivers = &s->receivers;
     task.order = lattice->order;
     task.count = s->texels.count;
-    task.near = validity.near;
+    task.proximity = validity.proximity;
     task.lattice = lattice;
     task.errors = s->errors;
     alp_result result = alpi_occlusion_rounds(&task, report);

@@ -35,7 +35,7 @@ static inline void open_on(setting *s, alp_scene *scene, const alp_atlas_options
         }
     }
     ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, order, count,
-                                              &(alpi_block_rule){.spacing = spacing}, &s->patches));
+                                              &(alpi_patch_rule){.spacing = spacing}, &s->patches));
 }
 
 /// @param each 1: all texels have light of their own; n: those not divisible by n; 0: all, 5 to a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells of whole packets: those of their points one by one, and the same by any instructions.
+// Packets read the same cells as single points do, on every instruction set.
 #include "patch_setting.h"
 
 #include "maps/radiosity/patch_lookup.h"
@@ -44,7 +44,7 @@ static void open_case(const cells_case *c, setting *s)
     if (c->each == 0) {
         alpi_patches_destroy(&s->patches);
         ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, s->lattice.order, 0,
-                                                  &(alpi_block_rule){.spacing = 4}, &s->patches));
+                                                  &(alpi_patch_rule){.spacing = 4}, &s->patches));
     }
 }
 
@@ -55,16 +55,16 @@ static uint32_t draw(uint32_t round, uint32_t packet, uint32_t what)
     return alpi_random_key(round, packet, what);
 }
 
-/// A lane that met nothing holds what no look-up may read.
+/// Fills a lane without a hit with values that no look-up may read.
 static void put_nothing(alpi_hits *hits, int lane)
 {
     hits->triangle[lane] = ALPI_NONE;
     hits->b1[lane] = hits->b2[lane] = NAN;
 }
 
-/// Packets of one triangle, but for one lane, or of any; met by all lanes, some or none, from the
-/// front, some from behind; corners, edges and points beside the triangle, off its page too.
-/// @return lanes that met something
+/// A packet of one triangle, of one except for a lane, or of any. All lanes hit, some or none, some
+/// from behind, at corners, at edges and beside the triangle, also off its page.
+/// @return lanes that hit
 static uint32_t draw_packet(const setting *s, uint32_t round, uint32_t packet, alpi_hits *hits)
 {
     const uint32_t kind = draw(round, packet, 0), count = s->scene->triangle_count;
@@ -91,7 +91,7 @@ static uint32_t draw_packet(const setting *s, uint32_t round, uint32_t packet, a
     return met;
 }
 
-/// Packets of one call, and what comes of it.
+/// Packets of one call, and their cells.
 typedef struct batch {
     uint32_t count;
     alpi_hits hits[ALPI_LIGHT_BATCH];
@@ -110,7 +110,7 @@ static void draw_batch(const setting *s, uint32_t round, batch *b)
 static void forget_backs(const setting *s)
 {
     if (s->patches.two_sided) {
-        memset(s->patches.seen_backs, ALPI_BACK_UNSEEN, s->patches.block_count);
+        memset(s->patches.seen_backs, ALPI_BACK_UNSEEN, s->patches.patch_count);
     }
 }
 
@@ -125,7 +125,7 @@ static void find(const setting *s, alpi_light_cells_fn *find_cells, batch *b)
 
 // --- tests ---------------------------------------------------------------------------------------
 
-/// What a point finds alone; it tells backs too.
+/// The cell of a single point. Marks backs too.
 static uint32_t cell_alone(const alpi_patches *p, const alpi_hits *hits, int lane)
 {
     const uint32_t texel =
@@ -133,7 +133,7 @@ static uint32_t cell_alone(const alpi_patches *p, const alpi_hits *hits, int lan
     return alpi_patches_side_cell(p, texel, (hits->behind >> lane & 1u) != 0);
 }
 
-/// Of kinds of cells.
+/// Counts of each kind of cell.
 typedef struct cell_counts {
     uint32_t black, front, back;
 } cell_counts;
@@ -143,12 +143,12 @@ static void hold_batch(const setting *s, uint32_t round, cell_counts *counts)
     static uint8_t seen[1u << 16];
     static batch b;
     const alpi_patches *p = &s->patches;
-    const uint32_t blocks = p->two_sided ? p->block_count : 0;
+    const uint32_t patches = p->two_sided ? p->patch_count : 0;
     draw_batch(s, round, &b);
     find(s, alpi_patches_find_cells_baseline, &b);
-    assert_true(blocks <= sizeof seen);
-    if (blocks > 0) {
-        memcpy(seen, p->seen_backs, blocks);
+    assert_true(patches <= sizeof seen);
+    if (patches > 0) {
+        memcpy(seen, p->seen_backs, patches);
     }
     forget_backs(s);
     for (int n = 0; n < ALPI_LIGHT_BATCH * ALPI_PACKET; n++) {
@@ -164,7 +164,7 @@ static void hold_batch(const setting *s, uint32_t round, cell_counts *counts)
             met && wanted >= ALPI_CELL_FIRST && wanted < ALPI_CELL_FIRST + s->texels.count;
         counts->back += met && wanted >= ALPI_CELL_FIRST + s->texels.count;
     }
-    assert_true(blocks == 0 || memcmp(seen, p->seen_backs, blocks) == 0);
+    assert_true(patches == 0 || memcmp(seen, p->seen_backs, patches) == 0);
 }
 
 TEST(packets_find_what_points_find)
@@ -193,19 +193,19 @@ TEST(any_instructions_find_the_same)
         open_case(&CASES[c], &s);
         const alpi_patches *p = &s.patches;
         alpi_light_cells_fn *find_cells = alpi_patches_light(p).find;
-        const uint32_t blocks = p->two_sided ? p->block_count : 0;
-        uint8_t *seen = calloc(blocks + 1, 1);
+        const uint32_t patches = p->two_sided ? p->patch_count : 0;
+        uint8_t *seen = calloc(patches + 1, 1);
         assert_non_null(seen);
         for (uint32_t r = 0; r < ROUNDS && find_cells != alpi_patches_find_cells_baseline; r++) {
             draw_batch(&s, r, &any);
             best = any;
             find(&s, alpi_patches_find_cells_baseline, &any);
-            if (blocks > 0) {
-                memcpy(seen, p->seen_backs, blocks);
+            if (patches > 0) {
+                memcpy(seen, p->seen_backs, patches);
             }
             find(&s, find_cells, &best);
             assert_memory_equal(best.cells, any.cells, sizeof any.cells);
-            assert_true(blocks == 0 || memcmp(p->seen_backs, seen, blocks) == 0);
+            assert_true(patches == 0 || memcmp(p->seen_backs, seen, patches) == 0);
         }
         free(seen);
         close_setting(&s);

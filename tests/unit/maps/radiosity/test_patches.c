@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Patches: where light is looked up, what texels reflect, how blocks hold them.
+// Patches: the look-up of texels, the grouping into patches, and reflectance.
 #include "patch_setting.h"
 #include "test_radiant.h"
 
@@ -20,7 +20,7 @@ static vec3 point_at(const alp_scene *scene, uint32_t triangle, float b1, float 
     return vec3_mad(vec3_mad(c[0], b1, vec3_sub(c[1], c[0])), b2, vec3_sub(c[2], c[0]));
 }
 
-/// The cell of a point, as rays find it. Beside it lanes that met nothing, which are left alone.
+/// The cell of a point by a packet. The other lanes hit nothing and must stay unchanged.
 static uint32_t find_cell(const alpi_patches *patches, uint32_t triangle, float b1, float b2,
                           bool behind)
 {
@@ -45,7 +45,7 @@ static uint32_t find_cell(const alpi_patches *patches, uint32_t triangle, float 
     return cells[1][LANE];
 }
 
-/// Whole packets, of one triangle and of two by turns, find what each of their points finds alone.
+/// Packets of one triangle and of two in turn read the same cells as their points alone.
 static void hold_packets(const setting *s)
 {
     const alpi_surface_light light = alpi_patches_light(&s->patches);
@@ -74,8 +74,8 @@ static void hold_packets(const setting *s)
     }
 }
 
-/// Points all over every triangle, its corners and edges too: what is found is a texel of the
-/// triangle's chart with light of its own, and near: `reach` texels at most.
+/// Points all over every triangle, corners and edges too, find a texel of the triangle's chart with
+/// light of its own, at most `reach` texels away.
 static double hold_lookups(const setting *s, double reach, uint32_t *black)
 {
     const double texel = 1.0 / alp_atlas_get_info(s->atlas).texels_per_metre;
@@ -93,7 +93,7 @@ static double hold_lookups(const setting *s, double reach, uint32_t *black)
             }
             assert_int_equal(find_cell(&s->patches, t, b1, b2, false), ALPI_CELL_FIRST + found);
             assert_int_equal(s->texels.charts[found], s->atlas->triangle_charts[t]);
-            assert_true(s->patches.blocks[found] != ALPI_NONE);
+            assert_true(s->patches.patch_of[found] != ALPI_NONE);
             const float *b = s->texels.barycentrics[found];
             const vec3 at = point_at(s->scene, s->texels.triangles[found], b[0], b[1]);
             const double away =
@@ -105,8 +105,8 @@ static double hold_lookups(const setting *s, double reach, uint32_t *black)
     return worst;
 }
 
-/// A point lies in a texel, at most a diagonal from what represents it, of which half would do if
-/// that were always the middle; and √2 more where the chart slopes by up to π/4.
+/// A point is at most a texel's diagonal from the point that represents its texel, half of it if
+/// that is the middle, and √2 more if the chart slopes by up to π/4.
 TEST(lookups_stay_in_their_charts)
 {
     static const struct {
@@ -148,8 +148,8 @@ TEST(lookups_stay_on_their_pages)
     close_setting(&s);
 }
 
-/// Two squares whose kept charts share a column of texels, which belongs to one of them: the other
-/// looks beside it.
+/// Two squares whose kept charts share a column of texels. The column belongs to one of them; the
+/// other finds texels beside it.
 TEST(charts_that_share_a_texel)
 {
     static const float uvs[2][4][2] = {{{0, 0}, {0, 1}, {0.46f, 1}, {0.46f, 0}},
@@ -182,8 +182,8 @@ TEST(charts_that_share_a_texel)
     close_setting(&s);
 }
 
-/// A third of the texels has no light of its own, as where they are inside other geometry: the
-/// nearest of the chart stands in; of a chart without any there is none.
+/// A third of the texels has no light of its own, as inside other geometry. The nearest texel of
+/// the chart replaces each; a chart without any is black.
 TEST(texels_without_light_have_stand_ins)
 {
     setting s;
@@ -191,14 +191,14 @@ TEST(texels_without_light_have_stand_ins)
     open_setting(&s, make_ball(test_context(2), 24, 12), 256, 0.78f, 4, 3);
     const uint16_t *pixel = s.texels.pixels[0];
     const size_t place = alpi_lattice_pixel(&s.lattice, s.texels.pages[0], pixel[0], pixel[1]);
-    assert_true(s.patches.blocks[0] == ALPI_NONE && s.patches.places[place].texel != 0);
+    assert_true(s.patches.patch_of[0] == ALPI_NONE && s.patches.places[place].texel != 0);
     hold_lookups(&s, 5.5, &black);
     assert_int_equal(black, 0);
     close_setting(&s);
     open_setting(&s, make_ball(test_context(2), 4, 2), 32, 0.01f, 4, 1);
     alpi_patches none;
     ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, 0,
-                                             &(alpi_block_rule){.spacing = 4}, &none));
+                                             &(alpi_patch_rule){.spacing = 4}, &none));
     for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
         assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
         assert_int_equal(find_cell(&none, t, 0.3f, 0.3f, false), ALPI_CELL_BLACK);
@@ -209,7 +209,7 @@ TEST(texels_without_light_have_stand_ins)
     close_setting(&s);
 }
 
-/// Blocks hold each texel once, of one chart and one square of the page, with their area.
+/// Each texel is in one patch. A patch has one chart, one square of the page, and its area.
 TEST(blocks_hold_every_texel_once)
 {
     static const uint32_t spacings[] = {1, 3, 4, 16};
@@ -219,37 +219,37 @@ TEST(blocks_hold_every_texel_once)
         uint32_t members = 0;
         open_setting(&s, make_ball(test_context(2), 24, 12), 97, 0.3f, spacings[i], 5);
         const alpi_patches *p = &s.patches;
-        for (uint32_t b = 0; b < p->block_count; b++) {
-            const uint32_t first = p->block_texels[p->block_first[b]];
+        for (uint32_t b = 0; b < p->patch_count; b++) {
+            const uint32_t first = p->patch_texels[p->patch_first[b]];
             double sum = 0.0;
-            assert_true(p->block_first[b + 1] > p->block_first[b]);
-            for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-                const uint32_t t = p->block_texels[k];
-                assert_int_equal(p->blocks[t], b);
+            assert_true(p->patch_first[b + 1] > p->patch_first[b]);
+            for (uint32_t k = p->patch_first[b]; k < p->patch_first[b + 1]; k++) {
+                const uint32_t t = p->patch_texels[k];
+                assert_int_equal(p->patch_of[t], b);
                 assert_true(t % 5 != 0);
                 assert_int_equal(s.texels.charts[t], s.texels.charts[first]);
                 for (int d = 0; d < 2; d++) {
                     assert_int_equal(s.texels.pixels[t][d] / spacings[i],
                                      s.texels.pixels[first][d] / spacings[i]);
                 }
-                assert_true(k == p->block_first[b] || p->block_ends[k] >= p->block_ends[k - 1]);
+                assert_true(k == p->patch_first[b] || p->patch_ends[k] >= p->patch_ends[k - 1]);
                 sum += (double)s.texels.areas[t];
                 members++;
             }
-            assert_true(p->block_ends[p->block_first[b + 1] - 1] == 1.0f);
-            ASSERT_NEAR(p->block_areas[b], sum, 1e-6 * sum);
+            assert_true(p->patch_ends[p->patch_first[b + 1] - 1] == 1.0f);
+            ASSERT_NEAR(p->patch_areas[b], sum, 1e-6 * sum);
             area += sum;
         }
         assert_int_equal(members, s.texels.count - (s.texels.count + 4) / 5);
-        assert_int_equal(p->block_first[p->block_count], members);
-        assert_true(spacings[i] > 1 || p->block_count == members);
+        assert_int_equal(p->patch_first[p->patch_count], members);
+        assert_true(spacings[i] > 1 || p->patch_count == members);
         assert_true(area > 0.0);
         close_setting(&s);
     }
 }
 
-/// Which blocks a square of the page may have: 4, 2 or 1 texels wide.
-static uint32_t side_of(const setting *s, const alpi_block_rule *rule, uint32_t texel)
+/// Side of the patches of a texel's square: 4, 2 or 1 texels.
+static uint32_t side_of(const setting *s, const alpi_patch_rule *rule, uint32_t texel)
 {
     const uint16_t *p = s->texels.pixels[texel];
     const uint32_t spacing = rule->spacing;
@@ -258,7 +258,7 @@ static uint32_t side_of(const setting *s, const alpi_block_rule *rule, uint32_t 
         const uint32_t t = alpi_lattice_texel(&s->lattice, s->texels.pages[texel],
                                               p[0] / spacing * spacing + i % spacing,
                                               p[1] / spacing * spacing + i / spacing);
-        const uint8_t near = t != ALPI_NONE ? rule->near[t] : ALPI_FAR;
+        const uint8_t near = t != ALPI_NONE ? rule->proximity[t] : ALPI_FAR;
         if ((t != ALPI_NONE && s->texels.valid[t] != 0) || near == ALPI_TOUCHING) {
             return 1;
         }
@@ -267,8 +267,8 @@ static uint32_t side_of(const setting *s, const alpi_block_rule *rule, uint32_t 
     return side;
 }
 
-/// Near another surface blocks are half as long, and texels where one of theirs lies in a solid or
-/// a surface touches one.
+/// Patches near another surface have half the side. They are single texels if a surface touches one
+/// of the texels, or one lies in a solid.
 TEST(blocks_are_small_near_surfaces)
 {
     static const uint32_t spacings[] = {4, 3};
@@ -285,16 +285,16 @@ TEST(blocks_are_small_near_surfaces)
             valid[t] = t % 113 == 0 ? 0xff : 0;
         }
         s.texels.valid = valid;
-        const alpi_block_rule rule = {spacing, near};
+        const alpi_patch_rule rule = {spacing, near};
         ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order,
                                                  s.texels.count, &rule, &patches));
         uint32_t seen[5] = {0}, most[5] = {0};
-        for (uint32_t b = 0; b < patches.block_count; b++) {
-            const uint32_t first = patches.block_texels[patches.block_first[b]];
+        for (uint32_t b = 0; b < patches.patch_count; b++) {
+            const uint32_t first = patches.patch_texels[patches.patch_first[b]];
             const uint32_t side = side_of(&s, &rule, first);
-            const uint32_t members = patches.block_first[b + 1] - patches.block_first[b];
-            for (uint32_t k = patches.block_first[b]; k < patches.block_first[b + 1]; k++) {
-                const uint32_t t = patches.block_texels[k];
+            const uint32_t members = patches.patch_first[b + 1] - patches.patch_first[b];
+            for (uint32_t k = patches.patch_first[b]; k < patches.patch_first[b + 1]; k++) {
+                const uint32_t t = patches.patch_texels[k];
                 for (int d = 0; d < 2; d++) {
                     const uint32_t start = s.texels.pixels[first][d] / spacing * spacing;
                     assert_int_equal((s.texels.pixels[t][d] - start) / side,
@@ -315,7 +315,7 @@ TEST(blocks_are_small_near_surfaces)
     }
 }
 
-/// Points of a block lie on its texels, as many as their share of the area.
+/// Points of a patch fall on its texels in proportion to their areas.
 TEST(blocks_are_placed_by_area)
 {
     enum { POINTS = 1024 };
@@ -324,32 +324,32 @@ TEST(blocks_are_placed_by_area)
     setting s;
     open_setting(&s, make_ball(test_context(2), 8, 4), 64, 0.01f, 4, 1);
     const alpi_patches *p = &s.patches;
-    const alpi_receivers blocks = alpi_patches_block_receivers(p);
+    const alpi_receivers receivers = alpi_patches_receivers(p);
     for (uint32_t i = 0; i < POINTS; i++) {
         const vec2 u = alpi_sample_2d(9, i);
         square[i][0] = u.x;
         square[i][1] = u.y;
     }
-    assert_true(blocks.extended && blocks.count == p->block_count && !p->two_sided);
-    for (uint32_t b = 0; b < p->block_count; b += 7) {
+    assert_true(receivers.extended && receivers.count == p->patch_count && !p->two_sided);
+    for (uint32_t b = 0; b < p->patch_count; b += 7) {
         vec3 mean = ZERO, wanted = ZERO;
         double size = 0.0;
-        blocks.place(blocks.user, b, POINTS, (const float(*)[2])square, points);
+        receivers.place(receivers.user, b, POINTS, (const float(*)[2])square, points);
         for (uint32_t i = 0; i < POINTS; i++) {
             mean = vec3_mad(mean, 1.0f / POINTS, points[i].position);
             ASSERT_NEAR(vec3_length(points[i].geometric_normal), 1.0, 1e-5);
         }
-        for (uint32_t k = p->block_first[b]; k < p->block_first[b + 1]; k++) {
-            const uint32_t t = p->block_texels[k];
+        for (uint32_t k = p->patch_first[b]; k < p->patch_first[b + 1]; k++) {
+            const uint32_t t = p->patch_texels[k];
             alpi_receiver_point inside[64];
             const alpi_receivers texels = alpi_texels_receivers(&s.texels);
             texels.place(texels.user, t, 64, (const float(*)[2])square, inside);
             for (int i = 0; i < 64; i++) {
-                const double share = (double)s.texels.areas[t] / p->block_areas[b] / 64.0;
+                const double share = (double)s.texels.areas[t] / p->patch_areas[b] / 64.0;
                 wanted = vec3_mad(wanted, (float)share, inside[i].position);
             }
         }
-        size = sqrt(p->block_areas[b]);
+        size = sqrt(p->patch_areas[b]);
         ASSERT_NEAR(vec3_length(vec3_sub(mean, wanted)), 0.0, 0.05 * size);
     }
     close_setting(&s);
@@ -402,8 +402,8 @@ TEST(pictures_count_by_their_mean)
     }
 }
 
-/// Where light is even, cells tell the sides of their texels. About one that is brighter by c
-/// times the mean of all, d = (c / .1)^(1/3) of them, at most 8, and at least 1.
+/// In even light the reach of a cell is the side of its texel. Around a cell brighter by c times
+/// the mean it is (c / .1)^(1/3) sides, from 1 to 8.
 TEST(uneven_light_reaches_farther)
 {
     setting s;
@@ -433,7 +433,7 @@ TEST(uneven_light_reaches_farther)
         }
         assert_int_equal(longer, wanted > 1.0 ? 9 : 0);
     }
-    for (uint32_t t = 0; t < s.texels.count; t++) { // in the dark: as it is
+    for (uint32_t t = 0; t < s.texels.count; t++) { // all dark: unchanged
         cells[t][0] = cells[t][1] = cells[t][2] = 0.0f;
         cells[t][ALPI_CELL_SIDE] = 7.0f;
     }
@@ -442,28 +442,28 @@ TEST(uneven_light_reaches_farther)
     close_setting(&s);
 }
 
-/// Backs: cells and receivers of their own, turned over, and seen only when a ray says so.
+/// Backs have their own cells and receivers, turned over. Only a ray marks them as seen.
 TEST(backs_are_other_cells)
 {
     setting s;
     test_mesh *mesh = test_mesh_start();
     test_mesh_quad(mesh, (double[]){0, 0, 0}, (double[]){0, 0, 1}, (double[]){1, 0, 0});
     open_setting(&s, test_mesh_scene(test_context(2), mesh, 1), 8, 0.5f, 4, 1);
-    const alpi_receivers blocks = alpi_patches_block_receivers(&s.patches);
+    const alpi_receivers receivers = alpi_patches_receivers(&s.patches);
     const alpi_receivers texels = alpi_patches_texel_receivers(&s.patches);
     const float middle[1][2] = {{0.5f, 0.5f}};
     assert_true(s.patches.two_sided);
-    assert_int_equal(blocks.count, 2 * s.patches.block_count);
+    assert_int_equal(receivers.count, 2 * s.patches.patch_count);
     assert_int_equal(texels.count, 2 * s.texels.count);
     for (int behind = 0; behind < 2; behind++) {
         const uint32_t texel = alpi_patches_find(&s.patches, 1, 0.3f, 0.4f);
-        const uint8_t *seen = &s.patches.seen_backs[s.patches.blocks[texel]];
+        const uint8_t *seen = &s.patches.seen_backs[s.patches.patch_of[texel]];
         assert_int_equal(*seen, ALPI_BACK_UNSEEN);
         assert_int_equal(find_cell(&s.patches, 1, 0.3f, 0.4f, behind != 0),
                          ALPI_CELL_FIRST + texel + (behind ? s.texels.count : 0));
         assert_int_equal(*seen, behind ? ALPI_BACK_SEEN : ALPI_BACK_UNSEEN);
         for (int kind = 0; kind < 2; kind++) {
-            const alpi_receivers *r = kind ? &texels : &blocks;
+            const alpi_receivers *r = kind ? &texels : &receivers;
             alpi_receiver_point at;
             r->place(r->user, behind ? r->count / 2 : 0, 1, middle, &at);
             assert_true(at.geometric_normal.y == (behind ? -1.0f : 1.0f));
@@ -473,8 +473,7 @@ TEST(backs_are_other_cells)
     close_setting(&s);
 }
 
-/// Pages whose rows are no multiple of anything, each row of blocks, tile of texels and place made
-/// by who comes first.
+/// One worker and several make the same patches, order and places, on pages of odd size.
 TEST(workers_change_no_block)
 {
     enum { SIZE = 67 };
@@ -488,16 +487,16 @@ TEST(workers_change_no_block)
         open_on(&s[i], make_ball(test_context(workers[i]), 24, 12), &a, 4, 5);
     }
     const alpi_patches *p = &s[0].patches, *q = &s[1].patches;
-    const uint32_t count = s[0].texels.count, blocks = p->block_count;
+    const uint32_t count = s[0].texels.count, patches = p->patch_count;
     assert_true(alp_atlas_get_info(s[0].atlas).pages >= 2);
     assert_int_equal(s[1].texels.count, count);
-    assert_int_equal(q->block_count, blocks);
+    assert_int_equal(q->patch_count, patches);
     assert_memory_equal(s[0].lattice.order, s[1].lattice.order, count * sizeof(uint32_t));
-    assert_memory_equal(p->blocks, q->blocks, count * sizeof(uint32_t));
-    assert_memory_equal(p->block_first, q->block_first, (blocks + 1) * sizeof(uint32_t));
-    assert_memory_equal(p->block_areas, q->block_areas, blocks * sizeof(double));
-    const uint32_t members = p->block_first[blocks];
-    assert_memory_equal(p->block_texels, q->block_texels, members * sizeof(uint32_t));
+    assert_memory_equal(p->patch_of, q->patch_of, count * sizeof(uint32_t));
+    assert_memory_equal(p->patch_first, q->patch_first, (patches + 1) * sizeof(uint32_t));
+    assert_memory_equal(p->patch_areas, q->patch_areas, patches * sizeof(double));
+    const uint32_t members = p->patch_first[patches];
+    assert_memory_equal(p->patch_texels, q->patch_texels, members * sizeof(uint32_t));
     const size_t pixels = (size_t)SIZE * SIZE * alp_atlas_get_info(s[0].atlas).pages;
     assert_memory_equal(p->places, q->places, pixels * sizeof *p->places);
     assert_int_equal(members, count - (count + 4) / 5);

@@ -265,7 +265,7 @@ TEST(near_surfaces_the_judge_is_stricter)
         l->values[i] = x + (bent ? 4.0f : 0.0f); // spread 4, bend a half
     }
     alpi_lattice_judge judge = {
-        .lattice = l, .order = &middle, .near = near, .wanted = wanted, .pass = 1};
+        .lattice = l, .order = &middle, .proximity = near, .wanted = wanted, .pass = 1};
     static const struct {
         float spread, bend, near_spread, near_bend;
         bool far_is_smooth, near_is_smooth;

@@ -127,7 +127,7 @@ TEST(double_sided_walls_hide_no_inside)
     assert_int_equal(s.validity.moved_count + s.validity.dropped_count, 0);
     uint32_t near = 0;
     for (uint32_t t = 0; t < s.texels.count; t++) {
-        near += s.validity.near[t];
+        near += s.validity.proximity[t];
     }
     assert_true(near > 0 && near < s.texels.count);
     end(&s);
@@ -493,7 +493,7 @@ static void check_floor(const validity_setup *s, uint32_t floor, double wall)
         const float texel = floor == 0 ? 1.0f / SIZE : 8.0f / SIZE;
         const uint32_t column = (uint32_t)((middle.position.x - 100.0f * (float)floor) / texel);
         const uint32_t row = (uint32_t)(middle.position.z / texel);
-        const uint8_t near = s->validity.near[t];
+        const uint8_t near = s->validity.proximity[t];
         const double d = scout_distance(column, wall);
         if (row < 3 || row >= SIDE - 3) {
             continue; // the wall ends

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Which texels a map of bounced light traces: on a square in the dark, where all is smooth, those
-// alone that nothing else may stand for; and on one of made-up light, those that differ by more
-// than the limits let pass.
+// Texels that a final gather traces. On a dark square all is smooth, so it traces only those
+// without a stencil. On a square of synthetic light it traces those that exceed the limits of the
+// judge.
 #include "test_scenes.h"
 
-#include "maps/radiosity/bounced_map.h"
+#include "maps/radiosity/final_gather.h"
 #include "maps/texels/validity.h"
 #include "transport/gather/cosine_rays.h"
 
@@ -18,7 +18,7 @@ typedef struct setting {
     alpi_lattice lattice;
     const alpi_tracer *tracer;
     alpi_reference_value values[SIZE * SIZE];
-    uint8_t near[SIZE * SIZE], states[SIZE * SIZE];
+    uint8_t proximity[SIZE * SIZE], states[SIZE * SIZE];
 } setting;
 
 /// A square that fills a page.
@@ -64,19 +64,19 @@ static void map_by(setting *s, const map_options *o)
                                     .gatherer = o->gatherer,
                                     .receivers = &receivers,
                                     .values = s->values};
-    const alpi_bounced_options options = {.gather = &gather,
-                                          .order = s->lattice.order,
-                                          .count = s->texels.count,
-                                          .near = s->near,
-                                          .adaptive = o->adaptive,
-                                          .straight = true,
-                                          .beside = o->gatherer};
-    alpi_bounced_report report = {0};
-    ASSERT_OK(s->context, alpi_bounced_map(&options, &s->lattice, NULL, s->states, &report));
+    const alpi_final_gather_options options = {.gather = &gather,
+                                               .order = s->lattice.order,
+                                               .count = s->texels.count,
+                                               .proximity = s->proximity,
+                                               .adaptive = o->adaptive,
+                                               .straight = true,
+                                               .independent = o->gatherer};
+    alpi_final_gather_report report = {0};
+    ASSERT_OK(s->context, alpi_final_gather(&options, &s->lattice, NULL, s->states, &report));
     assert_int_equal(report.traced + report.interpolated, SIZE * SIZE);
 }
 
-/// By rays in the dark.
+/// Gathers by rays in the dark.
 static void map(setting *s, bool adaptive)
 {
     const alpi_gather_scene from = {.scene = s->scene, .tracer = s->tracer};
@@ -86,7 +86,7 @@ static void map(setting *s, bool adaptive)
     map_by(s, &(map_options){.from = &from, .gatherer = &gatherer, .adaptive = adaptive});
 }
 
-/// Whether others could stand for a texel if all were known.
+/// Whether a texel has a stencil if all texels are known.
 static bool has_stencil(setting *s, uint32_t texel)
 {
     alpi_stencil stencil;
@@ -100,13 +100,13 @@ static bool has_stencil(setting *s, uint32_t texel)
 
 TEST(touching_texels_are_traced_by_every_second)
 {
-    static const alpi_nearness all[] = {ALPI_FAR, ALPI_NEAR, ALPI_TOUCHING};
+    static const alpi_proximity all[] = {ALPI_FAR, ALPI_NEAR, ALPI_TOUCHING};
     enum { OF = 16 };
     uint32_t traced[3] = {0};
     setting s;
     set_up(&s);
     for (int k = 0; k < 3; k++) {
-        memset(s.near, (int)all[k], sizeof s.near);
+        memset(s.proximity, (int)all[k], sizeof s.proximity);
         map(&s, true);
         for (uint32_t t = 0; t < SIZE * SIZE; t++) {
             const bool coarse = alpi_lattice_is_coarse(s.texels.pixels[t]);
@@ -115,7 +115,7 @@ TEST(touching_texels_are_traced_by_every_second)
             traced[k] += wanted;
         }
     }
-    // One of so many, or a quarter, and some of two borders.
+    // One of 16 or a quarter of all, plus some at two borders.
     assert_true(traced[0] == traced[1] && traced[0] < SIZE * SIZE / OF + 2 * SIZE);
     assert_true(traced[0] >= SIZE * SIZE / OF);
     assert_true(traced[2] >= SIZE * SIZE / 4 && traced[2] < SIZE * SIZE / 4 + SIZE);
@@ -126,9 +126,9 @@ TEST(touching_texels_are_traced_by_every_second)
     tear_down(&s);
 }
 
-// --- made-up light -------------------------------------------------------------------------------
+// --- synthetic light -----------------------------------------------------------------------------
 
-/// Light of texels: base, and along x a slope or a bend; and of replicates a little more or less.
+/// Light of texels: a base with a slope or a bend along x. Replicates are a little above and below.
 typedef struct made_up {
     const setting *s;
     double slope, bend; // of light a texel, and a texel² about a column
@@ -137,7 +137,7 @@ typedef struct made_up {
 enum { REPLICATES = 4 };
 static const double BASE = 0.5, APART = 1e-4;
 
-/// Aims at where on the square x is the light that a replicate finds.
+/// Aims at the place of the square whose x is the light that a replicate shall measure.
 static void aim_at_light(const void *user, const alpi_receivers *receivers, uint32_t receiver,
                          uint32_t first, uint32_t count, alpi_gather_packet *packets,
                          alpi_gather_ways *ways)
@@ -171,8 +171,8 @@ static void reflect_x(const void *user, const alpi_surface_point *points, uint32
     }
 }
 
-/// Maps it. @return the share that is traced of the texels halfway between two of a row of the
-/// lattice; where light bends, of those in the column about which it does
+/// Gathers synthetic light. @return the traced share of the texels halfway between two texels of a
+/// lattice row; with a bend, of those in its column
 static double traced_where(double slope, double bend)
 {
     setting s;
@@ -187,7 +187,7 @@ static double traced_where(double slope, double bend)
     for (uint32_t t = 0; t < SIZE * SIZE; t++) {
         const uint16_t *p = s.texels.pixels[t];
         const bool halfway = p[0] % SPACING == SPACING / 2 && p[1] % SPACING == 0;
-        // Of its row are two on either side, or there is no cubic; nor is it in a border's.
+        // A cubic needs two texels of the row on either side; stencils of borders have none.
         const bool inside = p[0] >= SPACING * 3 / 2 && p[0] + SPACING * 3 / 2 < SIZE &&
                             p[1] >= SPACING && p[1] < SIZE - SPACING;
         if (halfway && inside && (bend == 0.0 || p[0] == light.column)) {
@@ -200,20 +200,20 @@ static double traced_where(double slope, double bend)
     return (double)traced / all;
 }
 
-/// Noise of a texel, as light: of the mean of four replicates, two of them over it and two below.
+/// Noise of a texel: standard error of the mean of four replicates, two above it and two below.
 static double noise_of_texel(void)
 {
     return APART / sqrt(REPLICATES - 1.0);
 }
 
-/// Between two texels of a lattice that differ by so many times their noise.
+/// Traced share between two texels of the lattice that differ by `times` the noise.
 static double traced_by_spread(double noises)
 {
     return traced_where(noises * noise_of_texel() / SPACING, 0.0);
 }
 
-/// Where the cubic of four texels, d apart, is so many times the noise off the straight line
-/// between the two in the middle: (f(−3d/2) − f(−d/2) − f(d/2) + f(3d/2)) / 16 = d² / 4 of x².
+/// Traced share if the cubic of four texels, d apart, is `times` the noise off the straight line
+/// between the inner two: (f(−3d/2) − f(−d/2) − f(d/2) + f(3d/2)) / 16 = d² / 4 of x².
 static double traced_by_bend(double noises)
 {
     return traced_where(0.0, noises * noise_of_texel() / (SPACING * SPACING / 4.0));
@@ -222,7 +222,7 @@ static double traced_by_bend(double noises)
 TEST(what_differs_too_much_is_traced)
 {
     static const double spread = 20.0, bend = 1.0; // the limits
-    // A little more or less: limits go with the light of a texel, which is not that of all.
+    // With some margin: limits scale with the light of a texel, which differs from the mean.
     assert_true(traced_by_spread(0.95 * spread) == 0.0);
     assert_true(traced_by_spread(1.05 * spread) == 1.0);
     assert_true(traced_by_bend(0.95 * bend) == 0.0);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Lighting of cells: a cell reflects direct light, the soft sky and the light of the last pass.
+#include "maps/radiosity/radiosity.h"
+
+#include "base/tasks.h"
+
+enum { TEXELS_PER_RANGE = 4096 };
+
+typedef struct relight_job {
+    const alpi_radiosity *radiosity;
+    uint32_t layer;                       // ALPI_NONE: all light
+    const alpi_reference_value *gathered; // [texels] by fronts, or NULL: light of the patches
+} relight_job;
+
+static void relight_cell(const relight_job *job, uint32_t texel, alpi_side side)
+{
+    static const float none[3] = {0.0f, 0.0f, 0.0f};
+    const alpi_radiosity *r = job->radiosity;
+    const alpi_patches *p = &r->patches;
+    const alpi_layer_arrays *layers = r->options.layers;
+    const size_t back = side == ALPI_BACK ? 1 : 0;
+    const size_t patch = back * p->patch_count + p->patch_of[texel];
+    const size_t place = back * p->texels->count + texel;
+    const bool all = job->layer == ALPI_NONE;
+    const float *bounced = all ? r->before[patch] : layers->before[job->layer][patch];
+    const float *sky = all || job->layer == layers->sky ? r->skies[patch] : none;
+    const float *direct = all ? r->direct[place].mean : layers->direct[job->layer][place];
+    const bool hidden = (p->texels->flags[texel] & ALPI_TEXEL_HIDDEN) != 0; // gathers nothing
+    if (job->gathered != NULL && side == ALPI_FRONT && !hidden) {
+        sky = none;
+        bounced = job->gathered[texel].mean;
+    }
+    float *cell = p->cells[alpi_patches_cell(p, texel, side)];
+    const float gain = back == 0 ? alpi_radiosity_visible_gain(r, texel, p->patch_of[texel]) : 1.0f;
+    const float scale = (float)(1.0 / ALPI_PI) * gain;
+    for (int k = 0; k < 3; k++) {
+        cell[k] = p->reflectances[texel][k] * scale * (direct[k] + sky[k] + bounced[k]);
+    }
+}
+
+/// Unseen backs stay black. Seen backs keep their light once their direct light is freed.
+static alp_result relight_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const relight_job *job = user;
+    const alpi_patches *p = &job->radiosity->patches;
+    const bool backs = p->two_sided && !job->radiosity->backs_dropped;
+    for (uint32_t t = begin; t < end; t++) {
+        const uint32_t patch = p->patch_of[t];
+        if (patch == ALPI_NONE) {
+            continue;
+        }
+        relight_cell(job, t, ALPI_FRONT);
+        if (backs && p->seen_backs[patch] == ALPI_BACK_LIT) {
+            relight_cell(job, t, ALPI_BACK);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_radiosity_relight(const alpi_radiosity *radiosity, uint32_t layer,
+                                  const alpi_reference_value *gathered,
+                                  const alpi_task_progress *progress)
+{
+    relight_job job = {radiosity, layer, gathered};
+    return alpi_parallel_for(radiosity->options.context, radiosity->patches.texels->count,
+                             TEXELS_PER_RANGE, relight_range, &job, progress);
+}
