@@ -66,7 +66,7 @@ static void run(map_setup *s, uint32_t samples, uint64_t seed, float accuracy, f
                                       .receivers = &s->receivers,
                                       .order = s->lattice.order,
                                       .count = s->texels.count,
-                                      .near = validity.proximity,
+                                      .proximity = validity.proximity,
                                       .lattice = &s->lattice,
                                       .errors = s->errors,
                                       .bent = s->bent,
