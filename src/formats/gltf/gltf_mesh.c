@@ -514,22 +514,6 @@ static alp_result fill_surface(const plan *p, const part *from, const alpi_surfa
 
 // --- far from the origin ------------------------------------------------------------------------
 
-/// As alpi_origin_step. A pose has the origin of its base.
-static bool find_step(const plan *p, double step[3])
-{
-    alp_scene *scene = p->reader->scene;
-    bool moved = false;
-    if (p->reader->base == NULL) {
-        return alpi_origin_step(scene, step);
-    }
-    for (int k = 0; k < 3; k++) {
-        step[k] = p->reader->base->origin[k] - scene->origin[k];
-        scene->origin[k] = p->reader->base->origin[k];
-        moved = moved || step[k] != 0.0;
-    }
-    return moved;
-}
-
 /// Takes the scene's origin off the transforms where vertices are far, and fills in what they
 /// moved.
 static alp_result move_to_origin(plan *p)
@@ -537,7 +521,8 @@ static alp_result move_to_origin(plan *p)
     alpi_gltf_reader *reader = p->reader;
     alp_scene *scene = reader->scene;
     double step[3];
-    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && find_step(p, step); round++) {
+    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(scene, reader->base, step);
+         round++) {
         for (uint32_t i = 0; i < reader->order_count; i++) {
             alpi_origin_move(&reader->world[reader->order[i]], step);
         }
