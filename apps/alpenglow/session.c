@@ -2,6 +2,7 @@
 // Session of a command that loads a scene: context, messages, progress, exit code.
 #include "session.h"
 
+#include "animation.h"
 #include "interrupt.h"
 
 #include <math.h>
@@ -32,11 +33,16 @@ int session_open(session *s, const command_line *a)
 int session_load(session *s, const command_line *a)
 {
     double start = clock_seconds();
+    int code = animation_check(a);
+    if (code != EXIT_DONE) {
+        return code;
+    }
     alp_result result =
         alp_scene_load_choice(s->context, a->operands[0], a->values[OPTION_SCENE].text, &s->scene);
-    s->load_seconds = clock_seconds() - start;
     alp_scene_set_metals(s->scene, (alp_metals)a->values[OPTION_METALS].choice);
-    return result == ALP_OK ? session_judge_warnings(s) : session_end(s, result);
+    code = result == ALP_OK ? animation_pose(s, a) : session_end(s, result);
+    s->load_seconds = clock_seconds() - start;
+    return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 
 void session_close(session *s)

@@ -22,7 +22,8 @@ typedef struct session {
 /// Makes the context of the arguments. `s` must not move in memory.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
 int session_open(session *s, const command_line *arguments);
-/// Loads operand 0, or its scene of --scene. @return EXIT_DONE, or EXIT_FAILED after a message
+/// Loads operand 0, or its scene of --scene, in the pose of --animation-time.
+/// @return EXIT_DONE, or an exit code after a message
 int session_load(session *s, const command_line *arguments);
 void session_close(session *s);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "drawing.h"
 
+#include "messages.h"
 #include "options/options.h"
 #include "picture.h"
 
@@ -97,14 +98,46 @@ void drawing_destroy(drawing *d)
     gl_targets_destroy(&d->targets);
 }
 
-int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
+/// Lists the lights of the scene again, and draws their shadows, if the mode has lights.
+static int update_lights(drawing *d, const alp_lighting_options *lighting)
 {
     const bool lit = d->shadows.program != 0, seen = !d->light.lights.unseen;
-    pass_background_destroy(&d->background);
     pass_shadows_destroy(&d->shadows);
     gl_lights_destroy(&d->light.lights);
-    const int code = pass_background_create(context, d->scene, lighting, &d->background);
-    return code == EXIT_DONE && lit ? add_lights(d->scene, lighting, seen, d) : code;
+    return lit ? add_lights(d->scene, lighting, seen, d) : EXIT_DONE;
+}
+
+static int update_background(drawing *d, alp_context *context, const alp_lighting_options *lighting)
+{
+    pass_background_destroy(&d->background);
+    return pass_background_create(context, d->scene, lighting, &d->background);
+}
+
+int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting)
+{
+    const int code = update_background(d, context, lighting);
+    return code == EXIT_DONE ? update_lights(d, lighting) : code;
+}
+
+/// Finds the surfels that lamps do not light again.
+static int update_volume(const drawing *d, alp_context *context)
+{
+    return d->light.lpv == NULL || lpv_frame_collect(d->scene, d->light.lpv) == ALP_OK
+               ? EXIT_DONE
+               : failure(alp_context_message(context));
+}
+
+int drawing_set_pose(drawing *d, alp_context *context, const alp_scene *posed,
+                     const alp_lighting_options *lighting)
+{
+    const bool suns = (d->surfaces.mode->uses & USES_BACKGROUND) != 0 &&
+                      alp_scene_get_info(posed).lights > 0; // that are seen, and may turn
+    d->scene = posed;
+    gl_field_set(&d->light.field, d->light.field.field);
+    int code = gl_scene_move(posed, &d->drawn);
+    code = code == EXIT_DONE && suns ? update_background(d, context, lighting) : code;
+    code = code == EXIT_DONE ? update_lights(d, lighting) : code;
+    return code == EXIT_DONE ? update_volume(d, context) : code;
 }
 
 int drawing_move_object(drawing *d, alp_context *context, const float position[3])

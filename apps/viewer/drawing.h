@@ -50,6 +50,12 @@ void drawing_destroy(drawing *d);
 
 /// Changes sky, suns and lamps. @return EXIT_DONE, or EXIT_FAILED
 int drawing_set_lighting(drawing *d, alp_context *context, const alp_lighting_options *lighting);
+/// Draws another pose of the scene from now on: surfaces, lights and what propagates from them.
+/// Maps and fields keep their light, and are read where the surfaces are. `posed` must live as long
+/// as it is drawn.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int drawing_set_pose(drawing *d, alp_context *context, const alp_scene *posed,
+                     const alp_lighting_options *lighting);
 /// Moves the object to a place, metres. @return EXIT_DONE, or EXIT_FAILED after a message
 int drawing_move_object(drawing *d, alp_context *context, const float position[3]);
 /// Lights the volume of a mode that has one. Several grids follow the eye as far as the scene

@@ -86,7 +86,6 @@ alp_result lpv_frame_create(const alp_scene *scene, const alp_lpv_options *optio
                             const alp_lpv_scene_options *frame, int *code, lpv_frame *f)
 {
     const uint32_t side = frame->map_size, half = side > 1 ? side / 2 : 1;
-    float none[3] = {0.0f, 0.0f, 0.0f};
     *f = (lpv_frame){.views = frame->points == 0};
     *code = gl_lpv_create(options, &f->volume);
     *code = *code == EXIT_DONE ? pass_maps_create(side > CAMERA_SIDE ? side : CAMERA_SIDE, &f->maps)
@@ -96,13 +95,24 @@ alp_result lpv_frame_create(const alp_scene *scene, const alp_lpv_options *optio
         return ALP_OK;
     }
     f->side = side;
+    f->point_count = frame->points;
+    f->seed = frame->seed;
+    return lpv_frame_collect(scene, f);
+}
+
+alp_result lpv_frame_collect(const alp_scene *scene, lpv_frame *f)
+{
+    float none[3] = {0.0f, 0.0f, 0.0f};
     alp_result result = ALP_OK;
+    destroy_map(&f->emitters);
+    destroy_map(&f->points);
+    memset(f->emitted, 0, sizeof f->emitted);
     if (emits(scene)) {
-        const uint32_t count = side < 1448 ? 2 * side * side : EMITTERS_MOST;
-        result = collect(scene, ALP_LPV_EMITTERS, count, frame->seed, &f->emitters, f->emitted);
+        const uint32_t count = f->side < 1448 ? 2 * f->side * f->side : EMITTERS_MOST;
+        result = collect(scene, ALP_LPV_EMITTERS, count, f->seed, &f->emitters, f->emitted);
     }
-    const bool points = result == ALP_OK && options->blockers && !f->views;
-    return points ? collect(scene, ALP_LPV_POINTS, frame->points, frame->seed, &f->points, none)
+    const bool points = result == ALP_OK && f->volume.options.blockers && !f->views;
+    return points ? collect(scene, ALP_LPV_POINTS, f->point_count, f->seed, &f->points, none)
                   : result;
 }
 

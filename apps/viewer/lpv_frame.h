@@ -14,6 +14,8 @@ typedef struct lpv_frame {
     gl_lpv_map emitters, points; // surfels that stay; width 0 without any
     float emitted[3];            // W that `emitters` holds
     uint32_t side;               // of maps
+    uint32_t point_count;        // to collect
+    uint64_t seed;               // of surfels
     bool views;                  // maps are the views of blockers, not `points`
 } lpv_frame;
 
@@ -24,6 +26,8 @@ typedef struct lpv_frame {
 alp_result lpv_frame_create(const alp_scene *scene, const alp_lpv_options *options,
                             const alp_lpv_scene_options *frame, int *code, lpv_frame *f);
 void lpv_frame_destroy(lpv_frame *f);
+/// Collects the surfels that stay again, of a scene that has moved. @return as alp_lpv_collect
+alp_result lpv_frame_collect(const alp_scene *scene, lpv_frame *f);
 
 /// The parts of a frame.
 typedef struct lpv_frame_scene {

@@ -76,12 +76,20 @@ static int move_object(const view_job *view, drawing *d, double time)
     return drawing_move_object(d, view->session.context, position);
 }
 
-/// Moves the light and objects of both modes.
+/// Moves the nodes that an animation moves, in the light that the flight has so far.
+static int move_nodes(view_job *view, double time)
+{
+    const flight_run *run = find_run(view);
+    const bool day = run != NULL && run->day > 0.0;
+    return view_pose_move(view, time, day ? &run->lighting : &view->settings.render.lighting);
+}
+
+/// Moves the nodes, the light and the objects of both modes.
 static int move(view_job *view, double time, const alp_camera *camera)
 {
     const view_mode *const modes[2] = {view->settings.mode, view->beside.mode};
     drawing *const drawings[2] = {&view->drawing, &view->beside.drawing};
-    int code = EXIT_DONE;
+    int code = move_nodes(view, time);
     for (int i = 0; i < 2 && code == EXIT_DONE; i++) {
         code = move_light(view, modes[i], drawings[i], time, camera);
     }

@@ -24,6 +24,8 @@ typedef struct view_job {
     flight path;          // of the camera; empty where the light has the flight
     flight object_path;   // of --object; empty without one
     alp_image *reference; // NULL without one
+    alp_scene *rest;      // of which a flight poses session.scene; NULL: nothing is posed
+    uint32_t animation;   // that a flight plays; ALP_NONE: none
     double prepare_seconds;
 } view_job;
 
@@ -38,6 +40,14 @@ int view_picture(view_job *job);
 /// Reads the flight, and takes the view of its beginning.
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int view_flight_read(view_job *job);
+/// Finds the animation that a flight plays. @return EXIT_DONE, or EXIT_FAILED after a message
+int view_pose_find(view_job *job);
+/// Poses the scene for a time of the flight, if it plays an animation. session.scene and what both
+/// modes draw become the pose.
+/// @return EXIT_DONE, or an exit code after a message
+int view_pose_move(view_job *job, double time, const alp_lighting_options *lighting);
+/// Puts session.scene back.
+void view_pose_end(view_job *job);
 /// Writes the pictures of a flight. @return the exit code
 int view_flight(view_job *job);
 

@@ -151,6 +151,7 @@ static int run_scene(view_job *job)
     code = code == EXIT_DONE ? place_object(job) : code;
     code = code == EXIT_DONE ? load_reference(job) : code;
     code = code == EXIT_DONE && a->values[OPTION_PICTURES].given ? view_flight_read(job) : code;
+    code = code == EXIT_DONE ? view_pose_find(job) : code;
     code = code == EXIT_DONE ? prepare(job) : code;
     if (code == EXIT_DONE) {
         code = a->values[OPTION_PICTURES].given  ? view_flight(job)
@@ -160,6 +161,7 @@ static int run_scene(view_job *job)
     code = code == EXIT_DONE ? session_judge_warnings(&job->session) : code;
     drawing_destroy(&job->beside.drawing);
     drawing_destroy(&job->drawing);
+    view_pose_end(job);
     flight_clear(&job->path);
     flight_clear(&job->object_path);
     alp_image_destroy(job->reference);

@@ -34,6 +34,39 @@ ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char
 ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
                                                        const char *choice, alp_scene **scene);
 
+/// No item of an array: an index that is none.
+#define ALP_NONE UINT32_MAX
+
+/// An animation of a glTF.
+typedef struct alp_animation_info {
+    const char *name;  ///< "" without one; owned by the scene
+    double seconds;    ///< of its last key; 0 without a channel that is read
+    uint32_t channels; ///< that are read
+} alp_animation_info;
+/// @param index < animations of alp_scene_get_info, else a zeroed struct with an empty name
+ALP_API alp_animation_info alp_scene_get_animation(const alp_scene *scene, uint32_t index);
+
+/// The first animation of this name, else the one of this number from 0.
+/// @return ALP_NONE: there is none such
+ALP_API uint32_t alp_scene_find_animation(const alp_scene *scene, const char *choice);
+
+/// Makes a scene whose nodes stand where an animation of the file places them, with their meshes,
+/// lights and cameras. Joints of skins and weights of morph targets follow. Rotations are
+/// interpolated on the sphere. Before the first key a node has its first value, after the last key
+/// the last one. Members that no channel moves stay as the file has them.
+///
+/// Surfaces, triangles, vertices, materials and images have the same numbers in both scenes, which
+/// share document and images. The origin of alp_scene_info is the same. The corners of a triangle
+/// have another order where the sign of its surface's determinant differs. Faulty channels are left
+/// out; reading the file has warned of them. Normal maps are those that `scene` has loaded.
+/// @param animation < animations of alp_scene_get_info
+/// @param seconds   since the beginning of the animation; finite
+/// @param posed     out, which the caller destroys, before or after `scene`; NULL on failure
+/// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA or LIMIT as alp_scene_load; OUT_OF_MEMORY;
+///         CANCELLED
+ALP_API ALP_NODISCARD alp_result alp_scene_pose(const alp_scene *scene, uint32_t animation,
+                                                double seconds, alp_scene **posed);
+
 /// A mesh as arrays, in world space.
 typedef struct alp_mesh {
     const char *name;        ///< NULL = "mesh N"
@@ -87,7 +120,7 @@ typedef struct alp_scene_info {
     uint32_t usable_triangles; ///< triangles with area and finite coordinates
     uint32_t surfaces;         ///< one for each pair of node and primitive
     uint32_t vertices;         ///< in world space, with those of generated flat normals
-    uint32_t materials, images, cameras, lights;
+    uint32_t materials, images, cameras, lights, animations;
     float bounds_min[3], bounds_max[3]; ///< metres, over usable triangles; 0 without any
     double area;                        ///< square metres, one side, over usable triangles
     double unit_metres; ///< metres of one unit of the file; lengths were multiplied by it
@@ -97,12 +130,9 @@ typedef struct alp_scene_info {
     /// that floats lose detail, such as those of a national grid. Bounds, cameras, lights, and
     /// points, cameras and lamps that the caller gives are positions in the scene.
     double origin[3];
-    uint64_t hash; ///< of the bytes of its files, or of the arrays that it was made of
+    uint64_t hash; ///< of the bytes of its files and its pose, or of the arrays it was made of
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
-
-/// No item of an array: an index that is none.
-#define ALP_NONE UINT32_MAX
 
 /// One surface: a primitive placed in the world by a node.
 typedef struct alp_surface_info {

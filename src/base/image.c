@@ -43,9 +43,19 @@ alp_result alp_image_create(alp_context *context, alp_image_info info, alp_image
     return ALP_OK;
 }
 
-void alp_image_destroy(alp_image *image)
+alp_image *alpi_image_share(alp_image *image)
 {
     if (image != NULL) {
+        image->more_owners++;
+    }
+    return image;
+}
+
+void alp_image_destroy(alp_image *image)
+{
+    if (image != NULL && image->more_owners > 0) {
+        image->more_owners--;
+    } else if (image != NULL) {
         alpi_image_release_texts(image);
         alpi_release(image->context, image->pixels);
         alpi_release(image->context, image);

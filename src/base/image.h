@@ -20,7 +20,11 @@ struct alp_image {
     alp_image_info info;
     void *pixels;           // uint8_t or float, [height][width][channels]
     alpi_image_text *texts; // in their order; NULL without one
+    uint32_t more_owners;   // beside the first
 };
+
+/// The same image for one more owner, who destroys it and does not change it. NULL stays NULL.
+alp_image *alpi_image_share(alp_image *image);
 
 /// Releases the texts of an image.
 void alpi_image_release_texts(alp_image *image);

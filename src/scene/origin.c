@@ -2,6 +2,7 @@
 #include "scene/origin.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double FAR_EXTENTS = 8.0, COARSE_SHARE = 1e-5;
 static const double NEAR_EXTENTS = 2.0, COARSE_METRES = 1.0 / 1024.0;
@@ -62,12 +63,15 @@ void alpi_origin_choose(const alpi_world_box *box, double origin[3])
     }
 }
 
-bool alpi_origin_step(alp_scene *scene, double step[3])
+bool alpi_origin_step(alp_scene *scene, const alp_scene *base, double step[3])
 {
     const alpi_world_box box = alpi_world_box_of(scene);
     double origin[3];
     bool moved = false;
     alpi_origin_choose(&box, origin);
+    if (base != NULL) {
+        memcpy(origin, base->origin, sizeof origin);
+    }
     for (int k = 0; k < 3; k++) {
         step[k] = origin[k] - scene->origin[k];
         scene->origin[k] = origin[k];

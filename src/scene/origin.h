@@ -24,9 +24,10 @@ void alpi_origin_choose(const alpi_world_box *box, double origin[3]);
 
 /// A box of vertices that were rounded far out is not exact: readers find it again after a step.
 enum { ALPI_ORIGIN_ROUNDS = 3 };
-/// Chooses the origin by the scene's vertices. @param step out: new origin − old
+/// Chooses the origin by the scene's vertices.
+/// @param base whose origin the scene takes instead, or NULL   @param step out: new origin − old
 /// @return whether it has moved: vertices, lights and cameras are still where they were
-bool alpi_origin_step(alp_scene *scene, double step[3]);
+bool alpi_origin_step(alp_scene *scene, const alp_scene *base, double step[3]);
 
 /// Notes a transform from floats of a file to the scene: one that still reaches far brings large
 /// coordinates back, which the file itself holds rounded.

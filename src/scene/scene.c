@@ -56,19 +56,42 @@ void alp_scene_destroy(alp_scene *scene)
     for (uint32_t i = 0; scene->lights != NULL && i < scene->light_count; i++) {
         alpi_release(context, scene->lights[i].name);
     }
+    for (uint32_t i = 0; scene->animations != NULL && i < scene->animation_count; i++) {
+        alpi_release(context, scene->animations[i].name);
+    }
     for (int i = 0; i < ALPI_UV_SLOT_COUNT; i++) {
         alpi_release(context, scene->uvs[i]);
     }
     alpi_sides_destroy(context, scene->sides);
-    void *const arrays[] = {scene->positions,       scene->normals,     scene->colors,
-                            scene->vertex_source,   scene->triangles,   scene->triangle_surface,
-                            scene->triangle_usable, scene->surfaces,    scene->materials,
-                            scene->images,          scene->normal_maps, scene->lights,
-                            scene->cameras,         scene->attachments, scene->name};
+    void *const arrays[] = {
+        scene->positions, scene->normals,          scene->colors,          scene->vertex_source,
+        scene->triangles, scene->triangle_surface, scene->triangle_usable, scene->surfaces,
+        scene->materials, scene->images,           scene->normal_maps,     scene->lights,
+        scene->cameras,   scene->animations,       scene->attachments,     scene->name};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(context, arrays[i]);
     }
     alpi_release(context, scene);
+}
+
+static alp_result share_list(alp_context *context, alp_image *const *from, uint32_t count,
+                             alp_image ***to)
+{
+    if (from == NULL) {
+        return ALP_OK;
+    }
+    ALPI_TRY_NEW(context, *to, count);
+    for (uint32_t i = 0; i < count; i++) {
+        (*to)[i] = alpi_image_share(from[i]);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_scene_share_images(const alp_scene *from, alp_scene *to)
+{
+    to->image_count = from->image_count;
+    ALP_TRY(share_list(to->context, from->images, from->image_count, &to->images));
+    return share_list(to->context, from->normal_maps, from->image_count, &to->normal_maps);
 }
 
 // --- checks --------------------------------------------------------------------------------------
@@ -320,6 +343,7 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .images = scene->image_count,
         .cameras = scene->camera_count,
         .lights = scene->light_count,
+        .animations = scene->animation_count,
         .area = scene->area,
         .unit_metres = scene->unit_metres,
         .unit_stated = !scene->unit_assumed,
@@ -374,6 +398,15 @@ alp_light_info alp_scene_get_light(const alp_scene *scene, uint32_t index)
     vec3_store(info.position, l->position);
     vec3_store(info.direction, l->direction);
     return info;
+}
+
+alp_animation_info alp_scene_get_animation(const alp_scene *scene, uint32_t index)
+{
+    if (scene == NULL || index >= scene->animation_count) {
+        return (alp_animation_info){.name = ""};
+    }
+    const alpi_animation *a = &scene->animations[index];
+    return (alp_animation_info){.name = a->name, .seconds = a->seconds, .channels = a->channels};
 }
 
 alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index)

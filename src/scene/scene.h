@@ -82,6 +82,13 @@ typedef struct alpi_light {
     float size;                   // radians, full angle of a directional light's disk; 0 = a point
 } alpi_light;
 
+/// An animation of the file.
+typedef struct alpi_animation {
+    char *name;        // "" where the file has none
+    double seconds;    // of its last key
+    uint32_t channels; // that are read
+} alpi_animation;
+
 /// Something another room keeps with a scene, destroyed with it. Only that room knows what it is.
 typedef struct alpi_attachment {
     void *data;
@@ -137,6 +144,8 @@ struct alp_scene {
     alpi_light *lights;
     uint32_t camera_count;
     alp_camera *cameras;
+    uint32_t animation_count;
+    alpi_animation *animations;
 
     vec3 bounds_min, bounds_max; // over usable triangles
     double area;
@@ -167,6 +176,10 @@ alp_result alpi_scene_finish(alp_scene *scene);
 
 /// The same without warnings that a scene with the same materials and places gave before.
 alp_result alpi_scene_finish_quietly(alp_scene *scene);
+
+/// Shares the images and normal maps of a scene with one that has none.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_scene_share_images(const alp_scene *from, alp_scene *to);
 
 /// A material with glTF's defaults except metallic 0, named `name`.
 alpi_material alpi_material_default(void);

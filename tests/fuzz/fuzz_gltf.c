@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target: glTF text, its buffers and images in data: URIs. What can be read is written with a
-// map and read again, the maps that it has are compared with themselves, and it is made ready to be
-// drawn.
+// map and read again, the maps that it has are compared with themselves, it is made ready to be
+// drawn, and its animations pose it.
 #include "fuzz.h"
 
 #include <alpenglow/compare.h>
@@ -42,6 +42,24 @@ static void draw(const fuzz_run *run, alp_scene *scene)
     free(tangents);
 }
 
+/// Poses the scene by its first animations. Its arrays keep their sizes.
+static void pose(const fuzz_run *run, const alp_scene *scene)
+{
+    const alp_scene_info info = alp_scene_get_info(scene);
+    for (uint32_t i = 0; i < info.animations && i < 4; i++) {
+        alp_scene *posed = NULL;
+        const double seconds = 0.5 * alp_scene_get_animation(scene, i).seconds;
+        const alp_result result = alp_scene_pose(scene, i, seconds, &posed);
+        fuzz_result(run, result, posed);
+        const alp_scene_info made = alp_scene_get_info(posed);
+        if (posed != NULL && (made.vertices != info.vertices || made.triangles != info.triangles ||
+                              made.surfaces != info.surfaces)) {
+            abort();
+        }
+        alp_scene_destroy(posed);
+    }
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_run run = fuzz_begin(size);
@@ -51,6 +69,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         fuzz_write_back(&run, scene, "out.gltf");
         compare(&run, scene);
         draw(&run, scene);
+        pose(&run, scene);
     }
     alp_scene_destroy(scene);
     fuzz_end(&run);

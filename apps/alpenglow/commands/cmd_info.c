@@ -12,8 +12,8 @@
 #include <ctype.h>
 #include <math.h>
 
-/// Number of lamps, and of emissive surfaces, that text lists; JSON lists all.
-enum { LIGHTS_TOLD = 16 };
+/// Number of lamps, of emissive surfaces, and of animations that text lists; JSON lists all.
+enum { LIGHTS_TOLD = 16, ANIMATIONS_TOLD = 16 };
 
 static bool is_far(const alp_scene_info *i)
 {
@@ -220,6 +220,31 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     }
 }
 
+static void print_animations(const alp_scene *scene, uint32_t count)
+{
+    for (uint32_t i = 0; i < count && i < ANIMATIONS_TOLD; i++) {
+        const alp_animation_info a = alp_scene_get_animation(scene, i);
+        printf("animation  %u ", i);
+        print_clean(stdout, a.name[0] != '\0' ? a.name : "(no name)");
+        printf(", %g s, %u channel%s\n", a.seconds, a.channels, a.channels == 1 ? "" : "s");
+    }
+    if (count > ANIMATIONS_TOLD) {
+        printf("animation  and %u more; --json lists all\n", count - ANIMATIONS_TOLD);
+    }
+}
+
+static json_t *make_animations(const alp_scene *scene, uint32_t count)
+{
+    json_t *list = json_array();
+    for (uint32_t i = 0; i < count; i++) {
+        const alp_animation_info a = alp_scene_get_animation(scene, i);
+        json_array_append_new(list, json_pack("{s:o, s:o, s:I}", "name", json_text(a.name),
+                                              "seconds", json_number(a.seconds), "channels",
+                                              (json_int_t)a.channels));
+    }
+    return list;
+}
+
 static json_t *make_vector(const float v[3])
 {
     return json_pack("[o, o, o]", json_number((double)v[0]), json_number((double)v[1]),
@@ -309,10 +334,11 @@ static int print_json(const session *s, const alp_scene_info *info, const defaul
                       const alp_diagnosis *diagnosis, json_t *pictures)
 {
     json_t *document = json_pack(
-        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version", alp_version(),
-        "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao), "light",
-        work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces), "lights",
-        make_lights(s->scene, info), "cameras", make_cameras(s->scene, info), "uv_sets",
+        "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version",
+        alp_version(), "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao),
+        "light", work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
+        "lights", make_lights(s->scene, info), "cameras", make_cameras(s->scene, info),
+        "animations", make_animations(s->scene, info->animations), "uv_sets",
         findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis), "pictures",
         pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
@@ -329,6 +355,7 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
 {
     print_scene(path, info);
     print_unit(s->scene, info);
+    print_animations(s->scene, info->animations);
     print_work(work, info->area);
     print_surfaces(s->scene, info->surfaces);
     findings_print_uv_sets(diagnosis);

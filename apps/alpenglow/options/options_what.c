@@ -163,6 +163,29 @@ static const option rows[] = {
      .value = "N|NAME",
      .help = "Scene of a .gltf or .glb that holds several: its number from 0, or its "
              "name. Default: the scene that viewers open first."},
+    {.id = OPTION_ANIMATION,
+     .commands = SCENE_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_TEXT,
+     .name = "--animation",
+     .value = "N|NAME",
+     .initial = "0",
+     .help =
+         "Animation of a .gltf or .glb for --animation-time, and for flights of view: its name, "
+         "or its number from 0; info lists them. none: a flight plays none."},
+    {.id = OPTION_ANIMATION_TIME,
+     .commands = SCENE_COMMANDS,
+     .group = GROUP_WHAT,
+     .kind = KIND_REAL,
+     .name = "--animation-time",
+     .value = "T",
+     .minimum = 0,
+     .maximum = 1e6,
+     .unit = "seconds",
+     .help =
+         "Pose of the scene: nodes stand where the animation places them at this time. Default: "
+         "as the file places them. A flight of view moves them on from frame to frame, and "
+         "maps, probes, ambience and models of ambient light keep the light of this pose."},
     {.id = OPTION_ALLOW_OUTSIDE,
      .commands = SCENE_COMMANDS,
      .group = GROUP_WHAT,

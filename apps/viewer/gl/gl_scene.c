@@ -68,6 +68,18 @@ static int load_triangles(gl_scene *d, const alp_geometry *g)
     return code;
 }
 
+/// All that a pose moves, but tangents. The order of corners may change too.
+static int load_places(gl_scene *d, const alp_geometry *g)
+{
+    const size_t count = g->vertex_count;
+    int code =
+        load_buffer(g->positions, count * sizeof *g->positions, &d->buffers[BUFFER_POSITIONS]);
+    if (code == EXIT_DONE) {
+        code = load_buffer(g->normals, count * sizeof *g->normals, &d->buffers[BUFFER_NORMALS]);
+    }
+    return code == EXIT_DONE ? load_triangles(d, g) : code;
+}
+
 static int load_geometry(gl_scene *d, const alp_geometry *g, uint32_t places[ALP_UV_SETS])
 {
     if (g->triangle_count > INT_MAX / 3) {
@@ -76,17 +88,12 @@ static int load_geometry(gl_scene *d, const alp_geometry *g, uint32_t places[ALP
     const size_t count = g->vertex_count;
     d->vertex_count = g->vertex_count;
     d->colored = g->colors != NULL;
-    int code =
-        load_buffer(g->positions, count * sizeof *g->positions, &d->buffers[BUFFER_POSITIONS]);
-    if (code == EXIT_DONE) {
-        code = load_buffer(g->normals, count * sizeof *g->normals, &d->buffers[BUFFER_NORMALS]);
-    }
+    int code = load_places(d, g);
     if (code == EXIT_DONE) {
         code = load_buffer(g->colors, d->colored ? count * sizeof *g->colors : 0,
                            &d->buffers[BUFFER_COLORS]);
     }
-    code = code == EXIT_DONE ? load_uvs(d, g, places) : code;
-    return code == EXIT_DONE ? load_triangles(d, g) : code;
+    return code == EXIT_DONE ? load_uvs(d, g, places) : code;
 }
 
 static int load_tangents(gl_scene *d, const alp_scene *scene, const alp_geometry *g)
@@ -105,7 +112,7 @@ static int load_tangents(gl_scene *d, const alp_scene *scene, const alp_geometry
 static void list_surfaces(const alp_scene *scene, const alp_scene_info *info, gl_scene *d)
 {
     d->surface_count = info->surfaces;
-    d->surfaces = allocate_or_exit(NULL, info->surfaces * sizeof *d->surfaces + 1);
+    d->surfaces = allocate_or_exit(d->surfaces, info->surfaces * sizeof *d->surfaces + 1);
     for (uint32_t i = 0; i < info->surfaces; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
         const alp_material_info m = alp_scene_get_material(scene, s.material_index);
@@ -209,6 +216,22 @@ int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, g
     }
     list_surfaces(scene, &info, d);
     return load_materials(d, scene, &info, places);
+}
+
+int gl_scene_move(const alp_scene *posed, gl_scene *d)
+{
+    static const int moved[] = {BUFFER_POSITIONS, BUFFER_NORMALS, BUFFER_TRIANGLES};
+    const alp_geometry geometry = alp_scene_get_geometry(posed);
+    const alp_scene_info info = alp_scene_get_info(posed);
+    for (size_t i = 0; i < sizeof moved / sizeof *moved; i++) {
+        glDeleteBuffers(1, &d->buffers[moved[i]]);
+        d->buffers[moved[i]] = 0;
+    }
+    glDeleteBuffers(1, &d->tangents);
+    d->tangents = 0;
+    list_surfaces(posed, &info, d);
+    const int code = load_places(d, &geometry);
+    return code == EXIT_DONE ? load_tangents(d, posed, &geometry) : code;
 }
 
 void gl_scene_destroy(gl_scene *d)

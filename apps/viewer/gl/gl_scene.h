@@ -54,6 +54,9 @@ typedef struct gl_scene {
 /// @return EXIT_DONE, or EXIT_FAILED after a message; gl_scene_destroy in both cases
 int gl_scene_create(const alp_scene *scene, bool level_zero, bool normal_maps, gl_scene *drawn);
 void gl_scene_destroy(gl_scene *drawn);
+/// Takes the places of a pose of the same scene: positions, normals, tangents, and axes of objects.
+/// @return EXIT_DONE, or EXIT_FAILED after a message
+int gl_scene_move(const alp_scene *posed, gl_scene *drawn);
 /// Binds the vertex array and the buffers.
 void gl_scene_bind(const gl_scene *drawn);
 /// Surfaces of a scene.

@@ -366,7 +366,7 @@ static alp_result refill_surfaces(alpi_collada_reader *reader)
 static alp_result move_to_origin(alpi_collada_reader *reader)
 {
     double step[3];
-    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(reader->scene, step);
+    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(reader->scene, NULL, step);
          round++) {
         for (uint32_t i = 0; i < reader->placement_count; i++) {
             alpi_origin_move(&reader->placements[i].world, step);

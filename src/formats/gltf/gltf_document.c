@@ -411,6 +411,10 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
     if (document == NULL) {
         return;
     }
+    if (document->more_owners > 0) {
+        document->more_owners--;
+        return;
+    }
     alp_context *context = document->context;
     for (size_t i = 0; i < document->buffer_count; i++) {
         alpi_release(context, document->buffers[i].owned);
@@ -426,6 +430,7 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
     alpi_release(context, document->decoded);
     alpi_release(context, document->buffers);
     alpi_release(context, document->file_bytes);
+    alpi_release(context, document->choice);
     alpi_release(context, document->folder);
     alpi_release(context, document->path);
     alpi_release(context, document);

@@ -27,7 +27,9 @@ typedef struct alpi_gltf_document {
     size_t bin_size;    // chunk length, padding included
     const uint8_t *more_chunks; // a GLB's chunks after BIN, headers included, or NULL
     size_t more_chunks_size;
-    json_t *root; // an object
+    json_t *root;         // an object
+    char *choice;         // of its scenes, by number or name; NULL = the default one
+    uint32_t more_owners; // scenes that share it, beside the first
     alpi_gltf_buffer *buffers;
     size_t buffer_count;
     uint8_t **decoded_views;           // [bufferViews] what compressed ones hold, NULL = plain
@@ -44,7 +46,8 @@ alp_result alpi_gltf_document_read(alp_context *context, const char *path,
 /// The same from bytes in memory, which the document takes over (also on failure).
 alp_result alpi_gltf_document_parse(alp_context *context, const char *path, uint8_t *bytes,
                                     size_t size, alpi_gltf_document **document);
-void alpi_gltf_document_destroy(alpi_gltf_document *document); // NULL does nothing
+/// For one of its owners. NULL does nothing.
+void alpi_gltf_document_destroy(alpi_gltf_document *document);
 
 /// extras.alpenglow of a material that a bake gave to a primitive without one.
 #define ALPI_GLTF_NO_MATERIAL "no material"

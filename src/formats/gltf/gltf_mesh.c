@@ -521,7 +521,8 @@ static alp_result move_to_origin(plan *p)
     alpi_gltf_reader *reader = p->reader;
     alp_scene *scene = reader->scene;
     double step[3];
-    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(scene, step); round++) {
+    for (int round = 0; round < ALPI_ORIGIN_ROUNDS && alpi_origin_step(scene, reader->base, step);
+         round++) {
         for (uint32_t i = 0; i < reader->order_count; i++) {
             alpi_origin_move(&reader->world[reader->order[i]], step);
         }
@@ -559,8 +560,7 @@ static void tell_oddities(const plan *p)
                   p->without_material);
     }
     if (p->skinned > 0) {
-        alpi_note(context, "skin", path,
-                  "%u skinned nodes are read in the pose of their joints, without animation",
+        alpi_note(context, "skin", path, "%u skinned nodes are read in the pose of their joints",
                   p->skinned);
     }
     if (p->morphed > 0) {

@@ -4,6 +4,7 @@
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
+#include "formats/gltf/gltf_animation.h"
 #include "formats/gltf/gltf_tree.h"
 
 #include <math.h>
@@ -105,6 +106,20 @@ mat4 alpi_gltf_compose(const double t[3], const double q[4], const double s[3])
                    s[2] * (1 - 2 * (x * x + y * y)), 0, t[0], t[1], t[2], 1}};
 }
 
+/// Replaces what an animation sets.
+static void take_moment(const alpi_gltf_moment *m, double t[3], double q[4], double s[3])
+{
+    if (m->set[ALPI_GLTF_TRANSLATION]) {
+        memcpy(t, m->translation, sizeof m->translation);
+    }
+    if (m->set[ALPI_GLTF_ROTATION]) {
+        memcpy(q, m->rotation, sizeof m->rotation);
+    }
+    if (m->set[ALPI_GLTF_SCALE]) {
+        memcpy(s, m->scale, sizeof m->scale);
+    }
+}
+
 static alp_result read_transform(const alpi_gltf_reader *reader, uint32_t node, mat4 *local)
 {
     const alpi_gltf_document *document = reader->document;
@@ -130,6 +145,9 @@ static alp_result read_transform(const alpi_gltf_reader *reader, uint32_t node, 
     }
     for (int k = 0; k < 4; k++) {
         q[k] /= length;
+    }
+    if (reader->moments != NULL) {
+        take_moment(&reader->moments[node], t, q, s);
     }
     *local = alpi_gltf_compose(t, q, s);
     return ALP_OK;

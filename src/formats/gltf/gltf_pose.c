@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Skins and morph targets at rest: joints where their nodes stand, targets with their default
-// weights (glTF 2.0, sections 3.7.2.2 and 3.7.3.3). The node of a skinned mesh places nothing.
+// Skins and morph targets: joints where their nodes stand, targets with the weights of an
+// animation, else with their default ones (glTF 2.0, sections 3.7.2.2 and 3.7.3.3). The node of a
+// skinned mesh places nothing.
 #include "formats/gltf/gltf_pose.h"
 
 #include "base/memory.h"
 #include "formats/gltf/gltf_accessor.h"
+#include "formats/gltf/gltf_animation.h"
 #include "formats/gltf/gltf_tree.h"
 
 #include <math.h>
@@ -29,22 +31,13 @@ static alp_result count_steps(alpi_gltf_reader *reader, const char *owner, uint6
 
 // --- the pose of a node --------------------------------------------------------------------------
 
-/// Default weights of the node, else of its mesh.
-static alp_result read_weights(alpi_gltf_reader *reader, json_t *node, const char *owner,
-                               alpi_gltf_pose *pose)
+/// Weights, unless all are 0. @param list NULL: numbers of the array
+static alp_result copy_weights(alpi_gltf_reader *reader, const double *list, json_t *array,
+                               size_t count, alpi_gltf_pose *pose)
 {
-    json_t *mesh = json_object_get(node, "mesh");
-    json_t *weights = json_object_get(node, "weights");
-    if (!json_is_array(weights)) {
-        json_t *object =
-            alpi_gltf_item(reader->document, "meshes", (size_t)json_number_value(mesh));
-        weights = json_object_get(object, "weights");
-    }
-    size_t count = json_array_size(weights);
     bool any = false;
-    ALP_TRY(count_steps(reader, owner, count));
     for (size_t i = 0; i < count; i++) {
-        any |= json_number_value(json_array_get(weights, i)) != 0.0;
+        any |= (list != NULL ? list[i] : json_number_value(json_array_get(array, i))) != 0.0;
     }
     if (!any || count > TARGET_LIMIT) {
         return ALP_OK;
@@ -52,9 +45,30 @@ static alp_result read_weights(alpi_gltf_reader *reader, json_t *node, const cha
     ALPI_TRY_NEW(reader->context, pose->weights, count);
     pose->weight_count = (uint32_t)count;
     for (size_t i = 0; i < count; i++) {
-        pose->weights[i] = json_number_value(json_array_get(weights, i));
+        pose->weights[i] = list != NULL ? list[i] : json_number_value(json_array_get(array, i));
     }
     return ALP_OK;
+}
+
+/// Weights of the animation, else default ones of the node, else of its mesh.
+static alp_result read_weights(alpi_gltf_reader *reader, uint32_t node, const char *owner,
+                               alpi_gltf_pose *pose)
+{
+    json_t *object = alpi_gltf_item(reader->document, "nodes", node);
+    json_t *mesh = json_object_get(object, "mesh");
+    json_t *weights = json_object_get(object, "weights");
+    const alpi_gltf_moment *moment = reader->moments != NULL ? &reader->moments[node] : NULL;
+    if (moment != NULL && moment->set[ALPI_GLTF_WEIGHTS]) {
+        ALP_TRY(count_steps(reader, owner, moment->weight_count));
+        return copy_weights(reader, moment->weights, NULL, moment->weight_count, pose);
+    }
+    if (!json_is_array(weights)) {
+        json_t *shown = alpi_gltf_item(reader->document, "meshes", (size_t)json_number_value(mesh));
+        weights = json_object_get(shown, "weights");
+    }
+    const size_t count = json_array_size(weights);
+    ALP_TRY(count_steps(reader, owner, count));
+    return copy_weights(reader, NULL, weights, count, pose);
 }
 
 /// The node of joint `i`, ALPI_NONE when it is none: what is written has more nodes, and must not
@@ -119,7 +133,7 @@ alp_result alpi_gltf_pose_create(alpi_gltf_reader *reader, uint32_t node, bool t
     *pose = (alpi_gltf_pose){0};
     snprintf(owner, sizeof owner, "node %u", node);
     ALP_TRY(alpi_gltf_index(reader->document, object, "skin", "skins", owner, &skin));
-    alp_result result = read_weights(reader, object, owner, pose);
+    alp_result result = read_weights(reader, node, owner, pose);
     if (result == ALP_OK && skin != ALPI_GLTF_NONE) {
         snprintf(owner, sizeof owner, "skin %zu", skin);
         result =

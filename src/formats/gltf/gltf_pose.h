@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves vertices before their node places them: skins and morph targets, as a file shows them
-// when nothing is played.
+// What moves vertices before their node places them: skins and morph targets.
 #ifndef ALPI_FORMATS_GLTF_POSE_H
 #define ALPI_FORMATS_GLTF_POSE_H
 

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "formats/gltf/gltf_animation.h"
 #include "formats/gltf/gltf_scene.h"
 #include "formats/gltf/gltf_tree.h"
 
@@ -24,10 +25,13 @@ static alp_result fill_scene(alpi_gltf_reader *reader)
     ALP_TRY(alpi_gltf_read_nodes(reader));
     ALP_TRY(alpi_gltf_read_materials(reader));
     ALP_TRY(alpi_gltf_read_meshes(reader));
-    ALP_TRY(alpi_gltf_read_images(reader));
+    ALP_TRY(reader->base != NULL ? alpi_scene_share_images(reader->base, reader->scene)
+                                 : alpi_gltf_read_images(reader));
     ALP_TRY(alpi_gltf_read_cameras(reader));
     ALP_TRY(alpi_gltf_read_lights(reader));
-    return alpi_scene_finish(reader->scene);
+    ALP_TRY(alpi_gltf_read_animations(reader));
+    return reader->base != NULL ? alpi_scene_finish_quietly(reader->scene)
+                                : alpi_scene_finish(reader->scene);
 }
 
 static void destroy_document(alp_context *context, void *data)
@@ -36,35 +40,39 @@ static void destroy_document(alp_context *context, void *data)
     alpi_gltf_document_destroy(data);
 }
 
-static alp_result read_document(alpi_gltf_document *document, const char *choice, alp_scene **scene)
+/// The document becomes the scene's, also on failure.
+static alp_result read_document(alpi_gltf_reader *reader, alpi_gltf_document *document,
+                                alp_scene **scene)
 {
     *scene = NULL;
-    alpi_gltf_reader reader = {
-        .context = document->context, .document = document, .choice = choice};
-    alp_result result = alpi_scene_create(reader.context, document->path, &reader.scene);
+    alp_result result = alpi_scene_create(reader->context, document->path, &reader->scene);
     if (result != ALP_OK) {
         alpi_gltf_document_destroy(document);
         return result;
     }
-    reader.scene->attachments[ALPI_ATTACHMENT_DOCUMENT] =
+    reader->scene->attachments[ALPI_ATTACHMENT_DOCUMENT] =
         (alpi_attachment){document, destroy_document};
-    reader.scene->input_hash = hash_document(document);
-    result = fill_scene(&reader);
-    alpi_release(reader.context, reader.world);
-    alpi_release(reader.context, reader.order);
-    alpi_release(reader.context, reader.placed);
-    alpi_release(reader.context, reader.material_used);
+    result = fill_scene(reader);
+    alpi_release(reader->context, reader->world);
+    alpi_release(reader->context, reader->order);
+    alpi_release(reader->context, reader->placed);
+    alpi_release(reader->context, reader->material_used);
     if (result != ALP_OK) {
-        alp_scene_destroy(reader.scene);
+        alp_scene_destroy(reader->scene);
         return result;
     }
-    *scene = reader.scene;
+    *scene = reader->scene;
     return ALP_OK;
 }
 
 alp_result alpi_gltf_scene_from_document(alpi_gltf_document *document, alp_scene **scene)
 {
-    return read_document(document, NULL, scene);
+    const uint64_t hash = hash_document(document);
+    alpi_gltf_reader reader = {
+        .context = document->context, .document = document, .choice = document->choice};
+    ALP_TRY(read_document(&reader, document, scene));
+    (*scene)->input_hash = hash;
+    return ALP_OK;
 }
 
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene)
@@ -78,5 +86,41 @@ alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const c
     alpi_gltf_document *document = NULL;
     *scene = NULL;
     ALP_TRY(alpi_gltf_document_read(context, path, &document));
-    return read_document(document, choice, scene);
+    document->choice = choice != NULL ? alpi_copy_string(context, choice) : NULL;
+    if (choice != NULL && document->choice == NULL) {
+        alpi_gltf_document_destroy(document);
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    return alpi_gltf_scene_from_document(document, scene);
+}
+
+// --- a pose --------------------------------------------------------------------------------------
+
+static alp_result read_pose(alpi_gltf_reader *reader, uint32_t animation, double seconds,
+                            alp_scene **posed)
+{
+    alpi_gltf_document *document = reader->base->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    ALP_TRY(alpi_gltf_read_moments(reader, animation, seconds));
+    document->more_owners++;
+    return read_document(reader, document, posed);
+}
+
+alp_result alpi_gltf_read_pose(const alp_scene *scene, uint32_t animation, double seconds,
+                               alp_scene **posed)
+{
+    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
+    alpi_gltf_reader reader = {
+        .context = scene->context, .document = document, .choice = document->choice, .base = scene};
+    *posed = NULL;
+    alpi_hush(scene->context, true); // reading the file has warned
+    const alp_result result = read_pose(&reader, animation, seconds, posed);
+    alpi_hush(scene->context, false);
+    alpi_gltf_release_moments(&reader);
+    if (result == ALP_OK) {
+        (*posed)->metals_black = scene->metals_black;
+        const uint64_t hash =
+            alpi_hash_bytes(hash_document(document), &animation, sizeof animation);
+        (*posed)->input_hash = alpi_hash_bytes(hash, &seconds, sizeof seconds);
+    }
+    return result;
 }

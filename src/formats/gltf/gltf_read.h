@@ -19,6 +19,11 @@ typedef struct alpi_gltf_reader {
     bool *placed;        // [node_count] whether a node is in `order`
     bool *material_used; // [scene.material_count]
     uint64_t posing;     // work of skins and morph targets so far
+    uint64_t keys;       // numbers of animations so far
+    // Of a pose: the scene whose file it is, and where the nodes stand. Else NULL.
+    const alp_scene *base;
+    struct alpi_gltf_moment *moments; // [moment_count] of all nodes
+    size_t moment_count;
 } alpi_gltf_reader;
 
 /// gltf_nodes.c: checks that the nodes are trees and fills world and order.

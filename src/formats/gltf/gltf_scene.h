@@ -11,6 +11,12 @@ alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scen
 alp_result alpi_gltf_read_choice(alp_context *context, const char *path, const char *choice,
                                  alp_scene **scene);
 
+/// The scene of a glTF with its nodes where one of its animations places them. It shares document
+/// and images, and has the origin of `scene`. Says nothing that reading `scene` has said.
+/// @param animation < scene.animation_count
+alp_result alpi_gltf_read_pose(const alp_scene *scene, uint32_t animation, double seconds,
+                               alp_scene **posed);
+
 typedef enum alpi_image_encoding {
     ALPI_IMAGE_ENCODING_PNG_8, // or fewer bits a channel
     ALPI_IMAGE_ENCODING_PNG_16,

@@ -55,17 +55,17 @@ TEST_WITH_CONTEXT(a_scene_moves_once, 1)
 {
     alp_scene *scene = test_load(context, "builtin:cornell");
     double step[3], world[3];
-    assert_false(alpi_origin_step(scene, step));
+    assert_false(alpi_origin_step(scene, NULL, step));
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         scene->positions[v][0] += 1048576.0f;
     }
-    assert_true(alpi_origin_step(scene, step));
+    assert_true(alpi_origin_step(scene, NULL, step));
     assert_true(step[0] == 1048576.0 || step[0] == 1048577.0);
     assert_true(alp_scene_get_info(scene).origin[0] == step[0]);
     for (uint32_t v = 0; v < scene->vertex_count; v++) {
         scene->positions[v][0] -= (float)step[0];
     }
-    assert_false(alpi_origin_step(scene, step));
+    assert_false(alpi_origin_step(scene, NULL, step));
     alpi_origin_restore(scene, (vec3){1.0f, 2.0f, 3.0f}, world);
     assert_true(world[0] == 1.0 + scene->origin[0] && world[1] == 2.0 && world[2] == 3.0);
     alp_scene_destroy(scene);
