@@ -11,6 +11,16 @@
 
 #include <assert.h>
 
+/// What a medium leaves of light on its way. Multiplies `left` by the share that goes through along
+/// each ray, from where it starts to what it hit. Called by many threads.
+/// @param active bit i: lane i has been traced
+typedef void alpi_medium_fn(const void *user, const alpi_rays *rays, const alpi_hits *hits,
+                            uint32_t active, vec3 left[ALPI_PACKET]);
+typedef struct alpi_medium {
+    alpi_medium_fn *dim; // NULL: there is no medium
+    const void *user;    // what it reads
+} alpi_medium;
+
 /// What a gatherer looks at; all borrowed. Emissive surfaces and the sky count where a ray happens
 /// to meet them, or else are direct light's, which knows better ways to them (alpi_direct). Lamps
 /// and suns always are: no ray meets a point, and a sun's disk is smaller than what is between two
@@ -28,15 +38,17 @@ typedef struct alpi_gather_scene {
     // the sky's and emitters' too. Of gather jobs whose `lost` is NULL.
     const alpi_reference *near;
     float near_reach;
+    alpi_medium medium; // of alpi_gather_look
 } alpi_gather_scene;
 
-/// Radiance that comes back along rays, through panes on their way.
+/// Radiance that comes back along rays, through panes and medium on their way. A pane's own light
+/// is dimmed by what lies before the pane alone.
 /// @param rays     unit directions; destroyed
 /// @param active   bit i: lane i
 /// @param coherent the rays of the packet leave in about one direction
 /// @param radiance out; 0 of lanes that are not active
-/// @param open     NULL, or out: what panes leave of the light of each ray that leaves the scene; 0
-///                 of the others
+/// @param open     NULL, or out: what panes and medium leave of the light of each ray that leaves
+///                 the scene; 0 of the others
 void alpi_gather_look(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
                       bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET]);
 
