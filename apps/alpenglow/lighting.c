@@ -139,6 +139,16 @@ static int load_sky(session *s, const command_line *a, alp_lighting_options *opt
     return code == EXIT_DONE ? check_picture(path, *image) : code;
 }
 
+/// Warns of a scene without triangles. bake refuses it.
+static int warn_of_emptiness(session *s, const command_line *a)
+{
+    if (alp_scene_get_info(s->scene).triangles > 0 || a->command == COMMAND_BAKE) {
+        return EXIT_DONE;
+    }
+    session_warn(s, "empty", a->operands[0], "it holds no triangles");
+    return session_judge_warnings(s);
+}
+
 int lighting_open(session *s, const command_line *a, alp_lighting_options *options,
                   lamp_list *lamps, alp_image **sky)
 {
@@ -146,6 +156,7 @@ int lighting_open(session *s, const command_line *a, alp_lighting_options *optio
     interrupt_install();
     int code = session_open(s, a);
     code = code == EXIT_DONE ? session_load(s, a) : code;
+    code = code == EXIT_DONE ? warn_of_emptiness(s, a) : code;
     if (code != EXIT_DONE) {
         return code;
     }

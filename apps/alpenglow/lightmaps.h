@@ -13,7 +13,8 @@ typedef struct lightmap_layout {
 /// That of --atlas.
 lightmap_layout lightmap_layout_of(const command_line *arguments);
 
-/// Bakes maps alone, as bake --maps with --samples of --texel-samples.
+/// Bakes maps alone, as bake --maps with --samples of --texel-samples. A note says of a scene with
+/// baked light whether the picture shows it.
 /// @param options  atlas, occlusion, lighting and bounces of the picture
 /// @param maps     bits of alp_map
 /// @param lightmap out, which the caller destroys; NULL on failure

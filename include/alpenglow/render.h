@@ -119,8 +119,8 @@ typedef struct alp_render_options {
     /// into all directions alike and absorbs none; 0 (default) = none. With the fluence Φ of `lpv`
     /// and, unless without_direct, of lamps and suns, with shadows:
     ///     L = ∫ S e^(−S t) c(t) Φ(t) / 4π dt + e^(−S T) Lsurface,   t from 0 to the surface at T
-    /// c(t) is the colour of the panes before t.
-    /// Light is dimmed on its way to the camera alone. By 32 steps a camera ray.
+    /// c(t) is the colour of the panes before t. The own light of a pane at t is dimmed by e^(−S
+    /// t). Light is dimmed on its way to the camera alone. By 32 steps a camera ray.
     float scattering;
     /// REFERENCE, RADIOSITY and FIELD: surfaces that the camera sees get no light straight from
     /// punctual lamps and suns. A field that holds that light keeps it. Default false.

@@ -131,6 +131,9 @@ typedef struct alp_scene_info {
     /// points, cameras and lamps that the caller gives are positions in the scene.
     double origin[3];
     uint64_t hash; ///< of the bytes of its files and its pose, or of the arrays it was made of
+    /// Materials of a glTF that name a light map for viewers: MOZ_lightmap or extras.lightmap.
+    /// Only alp_scene_compare_maps reads such maps.
+    uint32_t light_maps;
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
 

@@ -26,6 +26,16 @@ typedef struct way {
     float end;           // metres, or INFINITY
 } way;
 
+static vec3 origin_of(const alpi_rays *rays, int lane)
+{
+    return (vec3){rays->origin_x[lane], rays->origin_y[lane], rays->origin_z[lane]};
+}
+
+static vec3 direction_of(const alpi_rays *rays, int lane)
+{
+    return (vec3){rays->direction_x[lane], rays->direction_y[lane], rays->direction_z[lane]};
+}
+
 static void follow_rays(const alpi_air *air, const alpi_rays *from, uint32_t lanes,
                         way ways[ALPI_PACKET])
 {
@@ -43,9 +53,7 @@ static void follow_rays(const alpi_air *air, const alpi_rays *from, uint32_t lan
         alpi_trace_nearest_coherent(l->tracer, &rays, lanes, filter, &hits);
         for (int i = 0; i < ALPI_PACKET; i++) {
             if ((lanes >> i & 1u) != 0) { // panes move origins
-                const vec3 moved = {rays.origin_x[i] - from->origin_x[i],
-                                    rays.origin_y[i] - from->origin_y[i],
-                                    rays.origin_z[i] - from->origin_z[i]};
+                const vec3 moved = vec3_sub(origin_of(&rays, i), origin_of(from, i));
                 ways[i].end = hits.distance[i] + vec3_length(moved);
             }
         }
@@ -91,6 +99,12 @@ static span clip(const alp_scene *scene, vec3 origin, vec3 direction, float end)
     return s;
 }
 
+/// Share of the light that the medium scatters out of a span: 1 − e^(−S length).
+static float find_scattered(const alpi_air *air, span s)
+{
+    return -expm1f(-air->scattering * fmaxf(s.end - s.begin, 0.0f));
+}
+
 /// Distance into the medium up to which the share u of the light of a span is scattered: steps of
 /// equal shares are dense where the camera sees much of them.
 static float find_depth(float scattering, float scattered, float u)
@@ -126,26 +140,41 @@ static vec3 average(const alpi_air *air, vec3 origin, vec3 direction, float begi
 }
 
 void alpi_air_along(const alpi_air *air, const alpi_rays *rays, uint32_t lanes, uint32_t key,
-                    uint32_t first, vec3 scattered[ALPI_PACKET], float left[ALPI_PACKET])
+                    uint32_t first, vec3 scattered[ALPI_PACKET])
 {
     const uint32_t air_key = alpi_hash32(key ^ 0x61697220u); // apart from places in the pixel
     way ways[ALPI_PACKET];
     follow_rays(air, rays, lanes, ways);
     for (int i = 0; i < ALPI_PACKET; i++) {
-        const vec3 origin = {rays->origin_x[i], rays->origin_y[i], rays->origin_z[i]};
-        const vec3 direction = {rays->direction_x[i], rays->direction_y[i], rays->direction_z[i]};
         scattered[i] = (vec3){0.0f, 0.0f, 0.0f};
-        left[i] = 1.0f;
         if ((lanes >> i & 1u) == 0) {
             continue;
         }
+        const vec3 origin = origin_of(rays, i), direction = direction_of(rays, i);
         const span s = clip(air->light->scene, origin, direction, ways[i].end);
-        const float share = -expm1f(-air->scattering * fmaxf(s.end - s.begin, 0.0f));
+        const float share = find_scattered(air, s);
         const float jitter = alpi_sample_2d(air_key, first + (uint32_t)i).x;
         if (share > 0.0f) {
             const vec3 mean = average(air, origin, direction, s.begin, share, jitter, &ways[i]);
             scattered[i] = vec3_scale(mean, share);
-            left[i] = 1.0f - share;
         }
     }
+}
+
+static void dim(const void *user, const alpi_rays *rays, const alpi_hits *hits, uint32_t active,
+                vec3 left[ALPI_PACKET])
+{
+    const alpi_air *air = user;
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((active >> i & 1u) != 0) {
+            const span s = clip(air->light->scene, origin_of(rays, i), direction_of(rays, i),
+                                hits->distance[i]);
+            left[i] = vec3_scale(left[i], 1.0f - find_scattered(air, s));
+        }
+    }
+}
+
+alpi_medium alpi_air_medium(const alpi_air *air)
+{
+    return (alpi_medium){.dim = dim, .user = air};
 }

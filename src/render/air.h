@@ -4,6 +4,7 @@
 #define ALPI_RENDER_AIR_H
 
 #include "render/field_light.h"
+#include "transport/gather/gather.h"
 
 #include <alpenglow/lpv.h>
 
@@ -15,13 +16,18 @@ typedef struct alpi_air {
     float scattering;              // coefficient S, 1/m; 0: there is no medium
 } alpi_air;
 
-/// The medium along rays, up to the surfaces that they meet, through panes. Light in it is dimmed
-/// on its way to the camera alone. Panes tint the light of the medium behind them by c(t).
-///     scattered = ∫ S e^(−S t) c(t) fluence / 4π dt,   left = e^(−S T)
+/// Light that the medium scatters into rays, up to the surfaces that they meet, through panes. It
+/// is dimmed on its way to the camera alone. Panes tint the light of the medium behind them by
+/// c(t).
+///     scattered = ∫ S e^(−S t) c(t) fluence / 4π dt
 /// @param rays  unit directions   @param lanes bit i: lane i
 /// @param key   of the pixel's random numbers   @param first sample of lane 0
-/// @param scattered, left out, of those lanes
+/// @param scattered out; 0 of other lanes
 void alpi_air_along(const alpi_air *air, const alpi_rays *rays, uint32_t lanes, uint32_t key,
-                    uint32_t first, vec3 scattered[ALPI_PACKET], float left[ALPI_PACKET]);
+                    uint32_t first, vec3 scattered[ALPI_PACKET]);
+
+/// How the medium dims light of surfaces and sky: by e^(−S T) over T metres.
+/// @param air borrowed
+alpi_medium alpi_air_medium(const alpi_air *air);
 
 #endif

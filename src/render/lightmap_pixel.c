@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/lightmap_pixel.h"
 
-/// What lies behind the surfaces: sky and sun disks, as far as panes let it through.
+/// What lies behind the surfaces: sky and sun disks, as far as panes and air let it through.
 /// @return share of the ray's view that something fills
 static float add_background(const alpi_gather_scene *from, vec3 direction, vec3 open,
                             vec3 *radiance)
@@ -12,13 +12,6 @@ static float add_background(const alpi_gather_scene *from, vec3 direction, vec3 
     radiance->z += open.z * behind.z;
     const bool lit = behind.x + behind.y + behind.z > 0.0f;
     return lit ? 1.0f : 1.0f - (open.x + open.y + open.z) / 3.0f;
-}
-
-/// Puts a medium before what rays have met: `left` of its light goes through.
-static void add_air(vec3 scattered, float left, vec3 *radiance, float *covered)
-{
-    *radiance = vec3_mad(scattered, left, *radiance);
-    *covered = 1.0f - (1.0f - *covered) * left;
 }
 
 void alpi_lightmap_pixel(const alpi_shown *shown, const alpi_view *view, uint32_t samples,
@@ -32,19 +25,17 @@ void alpi_lightmap_pixel(const alpi_shown *shown, const alpi_view *view, uint32_
     for (uint32_t first = 0; first < samples; first += ALPI_PACKET) {
         const uint32_t rest = samples - first, lanes = rest < ALPI_PACKET ? rest : ALPI_PACKET;
         vec3 radiance[ALPI_PACKET], open[ALPI_PACKET], scattered[ALPI_PACKET];
-        float left[ALPI_PACKET];
         view->loops->packet(view, index, key, first, &rays);
         if (misty) {
-            alpi_air_along(&shown->air, &rays, (1u << lanes) - 1u, key, first, scattered, left);
+            alpi_air_along(&shown->air, &rays, (1u << lanes) - 1u, key, first, scattered);
         }
         alpi_gather_trace(from, &rays, (1u << lanes) - 1u, true, radiance, open);
         for (uint32_t i = 0; i < lanes; i++) { // panes move origins and no directions
             const vec3 direction = {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
-            float filled = add_background(from, direction, open[i], &radiance[i]);
+            covered += (double)add_background(from, direction, open[i], &radiance[i]);
             if (misty) {
-                add_air(scattered[i], left[i], &radiance[i], &filled);
+                radiance[i] = vec3_add(radiance[i], scattered[i]);
             }
-            covered += (double)filled;
             sum[0] += (double)radiance[i].x;
             sum[1] += (double)radiance[i].y;
             sum[2] += (double)radiance[i].z;

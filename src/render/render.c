@@ -404,6 +404,9 @@ static void prepare_field(render_job *job)
                                               .light = alpi_field_light_surfaces(&job->field),
                                               .emitters = true};
     job->shown.air = (alpi_air){&job->field, job->options.lpv, job->options.scattering};
+    if (job->options.scattering > 0.0f) {
+        job->shown.surfaces.medium = alpi_air_medium(&job->shown.air);
+    }
 }
 
 /// What the paths of RADIOSITY end with.

@@ -344,6 +344,7 @@ alp_scene_info alp_scene_get_info(const alp_scene *scene)
         .cameras = scene->camera_count,
         .lights = scene->light_count,
         .animations = scene->animation_count,
+        .light_maps = scene->light_map_count,
         .area = scene->area,
         .unit_metres = scene->unit_metres,
         .unit_stated = !scene->unit_assumed,

@@ -150,10 +150,11 @@ struct alp_scene {
     vec3 bounds_min, bounds_max; // over usable triangles
     double area;
 
-    double unit_metres; // of one unit of the file, by which its lengths were multiplied
-    bool unit_assumed;  // the file does not say it: metres were taken
-    bool metals_black;  // ALP_METALS_BLACK
-    char up_axis;       // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
+    double unit_metres;       // of one unit of the file, by which its lengths were multiplied
+    bool unit_assumed;        // the file does not say it: metres were taken
+    bool metals_black;        // ALP_METALS_BLACK
+    uint32_t light_map_count; // materials that name a map of light for viewers
+    char up_axis;             // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
     alpi_attachment *attachments; // [ALPI_ATTACHMENT_COUNT]; filled in later even in a const scene

@@ -173,7 +173,7 @@ static float find_residual(const ambient_field *f, uint32_t count, const float (
     double squares = 0.0;
     for (uint32_t p = 0; p < count; p++) {
         float e[1][3];
-        evaluate(&f->field, 1, &positions[p], &normals[p], e);
+        alp_field_irradiance(&f->field, 1, &positions[p], &normals[p], e); // none is below 0
         for (int k = 0; k < 3; k++) {
             const double apart = (double)e[0][k] - (double)values[p].mean[k];
             squares += apart * apart - (double)values[p].variance[k];

@@ -315,6 +315,14 @@ static alp_result read_material(const source *from, alpi_material *material)
     return ALP_OK;
 }
 
+/// Whether it names a map of light for viewers, which gltf_light_maps.c reads.
+static bool names_light_map(json_t *material)
+{
+    json_t *lightmap = json_object_get(json_object_get(material, "extras"), "lightmap");
+    return alpi_gltf_extension(material, "MOZ_lightmap") != NULL ||
+           alpi_gltf_text(lightmap, "uri") != NULL;
+}
+
 alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)
 {
     size_t count = alpi_gltf_count(reader->document, "materials");
@@ -330,6 +338,7 @@ alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader)
         snprintf(owner, sizeof owner, "material %zu", i);
         source from = {reader, alpi_gltf_item(reader->document, "materials", i), owner, false};
         ALP_TRY(read_material(&from, &reader->scene->materials[i]));
+        reader->scene->light_map_count += names_light_map(from.object) ? 1 : 0;
     }
     return ALP_OK;
 }

@@ -104,6 +104,9 @@ void alpi_gather_trace(const alpi_gather_scene *from, alpi_rays *rays, uint32_t 
         } else {
             alpi_trace_nearest(from->tracer, rays, active, filter, &hits);
         }
+        if (from->medium.dim != NULL) {
+            from->medium.dim(from->medium.user, rays, &hits, active, left);
+        }
         sort_hits(from, rays, &hits, active, &met, left, radiance);
         add_surfaces(from, &met, left, radiance);
         for (int i = 0; i < ALPI_PACKET && open != NULL; i++) {

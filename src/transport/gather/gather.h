@@ -11,6 +11,16 @@
 
 #include <assert.h>
 
+/// Transmittance of a medium. Multiplies `left` by the share of light that goes through along each
+/// ray, from its origin to its hit. Called by many threads.
+/// @param active bit i: lane i has been traced
+typedef void alpi_medium_fn(const void *user, const alpi_rays *rays, const alpi_hits *hits,
+                            uint32_t active, vec3 left[ALPI_PACKET]);
+typedef struct alpi_medium {
+    alpi_medium_fn *dim; // NULL: there is no medium
+    const void *user;    // what it reads
+} alpi_medium;
+
 /// The scene and the light that rays meet; all borrowed. Emissive surfaces and the sky count where
 /// a ray meets them, or they are direct light, which has better samples (alpi_direct). Lamps and
 /// suns always are direct light: no ray meets a point, and a sun's disk is smaller than the gaps
@@ -27,15 +37,17 @@ typedef struct alpi_gather_scene {
     // emitters, and end in cells. Only for gather jobs whose `lost` is NULL.
     const alpi_reference *near;
     float near_reach;
+    alpi_medium medium; // of alpi_gather_trace
 } alpi_gather_scene;
 
-/// Traces rays, through panes, and returns the radiance of their hits.
+/// Traces rays, through panes and medium, and returns the radiance of their hits. The light of a
+/// pane is dimmed by the medium before it alone.
 /// @param rays     unit directions; destroyed
 /// @param active   bit i: lane i
 /// @param coherent the rays of the packet leave in about one direction
 /// @param radiance out; 0 of lanes that are not active
-/// @param open     NULL, or out: transmittance of panes along each ray that leaves the scene; 0 of
-///                 the others
+/// @param open     NULL, or out: transmittance of panes and medium along each ray that leaves the
+///                 scene; 0 of the others
 void alpi_gather_trace(const alpi_gather_scene *from, alpi_rays *rays, uint32_t active,
                        bool coherent, vec3 radiance[ALPI_PACKET], vec3 open[ALPI_PACKET]);
 

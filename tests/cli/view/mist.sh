@@ -52,3 +52,6 @@ compare "camera on the lower bound" air.obj $mist --camera -1,0,5,-1,0,0,1 --res
 compare "two panes" panes.obj $mist --camera 0,0,5,0,0,0,2 --resolution 16x16
 compare "a sky behind them" panes.obj $mist --sky 1,1,1 --camera 0,0,5,0,0,0,2 --resolution 16x16
 compare "from between them" panes.obj $mist --camera 0,0,-.2,0,0,-1,2 --resolution 16x16
+sed 's/Kd .8 .4 .2/&\nKe .5 .5 .5/' panes.mtl >glow.mtl
+sed 's/panes.mtl/glow.mtl/' panes.obj >glow.obj
+compare "a pane that glows" glow.obj $mist --camera 0,0,5,0,0,0,2 --resolution 16x16

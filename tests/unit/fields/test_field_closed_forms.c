@@ -57,6 +57,49 @@ TEST(bounces_count_in_a_furnace)
     alp_scene_destroy(scene);
 }
 
+// --- a sun alone ---------------------------------------------------------------------------------
+
+/// A sun of E overhead gives E max(y, 0). Over all normals the nearest sum of an upper and a lower
+/// colour is E (1/4 + y/2): colours 3/4 E and −1/4 E. It is below 0 where y < −1/2, and look-ups
+/// are 0 there. The error that is left has the root mean square E / 8; without the bound it would
+/// be E / √48.
+TEST(a_negative_colour_gives_no_negative_light)
+{
+    static const alp_ambient_model models[] = {ALP_AMBIENT_HEMISPHERE, ALP_AMBIENT_GROUND_MAP};
+    const double sun = 10.0;
+    alp_scene *scene = field_specks(context);
+    for (int i = 0; i < 2; i++) {
+        alp_ambient_options o = alp_ambient_options_default();
+        alp_field *field = NULL;
+        o.model = models[i];
+        o.direct = true;
+        o.points = 40000;
+        o.samples = 16;
+        o.lighting.sun.illuminance = (float)sun;
+        o.lighting.sun.elevation = (float)(0.5 * PI);
+        o.lighting.sun.size = 0.0f;
+        ASSERT_OK(context, alp_field_create_ambient(scene, &o, &field));
+        const alp_ambient_info m = alp_field_get_ambient(field);
+        const float position[1][3] = {{0.1f, 0.2f, 0.3f}}, normal[1][3] = {{0.0f, 1.0f, 0.0f}};
+        float error;
+        alp_field_errors(field, 1, position, normal, &error);
+        for (int k = 0; k < 3; k++) {
+            ASSERT_NEAR(m.colors[0][k], 0.75 * sun, 0.02 * sun);
+            ASSERT_NEAR(m.colors[1][k], -0.25 * sun, 0.02 * sun);
+        }
+        for (int step = 0; step <= 12; step++) {
+            const double tilt = PI * step / 12.0;
+            const double expected = fmax(sun * (0.25 + 0.5 * cos(tilt)), 0.0);
+            const vec3 e = field_read(field, (vec3){0.1f, 0.2f, 0.3f}, field_tilted(tilt, step));
+            ASSERT_NEAR(e.z, expected, 0.02 * sun);
+            assert_true(e.x >= 0.0f && e.y >= 0.0f && e.z >= 0.0f);
+        }
+        ASSERT_NEAR(error, sun / 8.0, 0.02 * sun / 8.0);
+        alp_field_destroy(field);
+    }
+    alp_scene_destroy(scene);
+}
+
 // --- skies ---------------------------------------------------------------------------------------
 
 typedef struct sky_case {

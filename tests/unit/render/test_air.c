@@ -221,6 +221,69 @@ TEST(a_pane_tints_the_air_behind_it)
     alp_scene_destroy(scene);
 }
 
+/// A sun of E behind the camera shines on a pane of colour c and alpha a, in the middle of 2 m of
+/// air. The pane reflects E a c / π through 1 m of air. Sunlight passes the pane on its way into
+/// the air behind it, and back:
+///     L = E a c / π e^(−S) + E / 4π ((1 − e^(−S)) + through² (e^(−S) − e^(−2 S)))
+TEST(air_behind_a_pane_does_not_dim_its_reflection)
+{
+    static picture pixels;
+    const double s = 0.7, e = 10.0, alpha = 0.6, colors[3] = {0.8, 0.4, 0.2};
+    alp_scene *scene = make_air_with_pane(alpha, colors);
+    alp_lpv *lpv = make_volume(scene, 0.0f);
+    alp_render_options o = options_of(NULL, NULL);
+    o.scattering = (float)s;
+    o.samples = 64;
+    o.lighting.sun.illuminance = (float)e;
+    o.lighting.sun.size = 0.0f;
+    draw(scene, lpv, o, pixels);
+    for (int i = 0; i < PIXELS; i++) {
+        for (int k = 0; k < 3; k++) {
+            const double through = (1.0 - alpha) * (1.0 - alpha + alpha * colors[k]);
+            const double behind = through * through * (exp(-s) - exp(-2.0 * s));
+            const double air = e / (4.0 * PI) * (1.0 - exp(-s) + behind);
+            const double own = e * alpha * colors[k] / PI * exp(-s);
+            ASSERT_NEAR((double)pixels[i][k] * (double)pixels[i][3] / (air + own), 1.0, 2e-3);
+        }
+    }
+    alp_lpv_destroy(lpv);
+    alp_scene_destroy(scene);
+}
+
+/// Panes of alpha a that emit Le, at depths of 1 and 1.5 m in 2 m of dark air. Each is dimmed by
+/// the air before it, and by the panes before it:
+///     L = Σ a Le through^k e^(−S d),   alpha = 1 − through² e^(−2 S)
+TEST(each_pane_that_emits_is_dimmed_by_the_air_before_it)
+{
+    static picture pixels;
+    const double s = 0.7, alpha = 0.6, radiance = 3.0, through = (1.0 - alpha) * (1.0 - alpha);
+    const vec3 black = {0.0f, 0.0f, 0.0f}, glow = {3.0f, 3.0f, 3.0f};
+    alp_scene *scene = NULL;
+    alpi_builder b;
+    alpi_builder_start(&b, context, "panes that emit");
+    add_specks(&b);
+    const uint32_t pane = alpi_builder_material(&b, "pane", black, glow);
+    b.scene->materials[pane].alpha_mode = ALPI_ALPHA_BLEND;
+    b.scene->materials[pane].base_color[3] = (float)alpha;
+    for (int i = 0; i < 2; i++) {
+        const float z = -0.5f * (float)i, h = 0.1f;
+        alpi_builder_surface(&b, "pane", pane);
+        alpi_builder_quad(&b, (const vec3[4]){{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}});
+    }
+    ASSERT_OK(context, alpi_builder_finish(&b, &scene));
+    alp_lpv *lpv = make_volume(scene, 0.0f);
+    alp_render_options o = options_of(NULL, NULL);
+    o.scattering = (float)s;
+    draw(scene, lpv, o, pixels);
+    const double expected = alpha * radiance * (exp(-s) + through * exp(-1.5 * s));
+    for (int i = 0; i < PIXELS; i++) {
+        ASSERT_NEAR((double)pixels[i][0] * (double)pixels[i][3], expected, 1e-5);
+        ASSERT_NEAR(pixels[i][3], 1.0 - through * through * exp(-2.0 * s), 1e-5);
+    }
+    alp_lpv_destroy(lpv);
+    alp_scene_destroy(scene);
+}
+
 /// A camera that faces a plane of albedo ½ in light of radiance L from everywhere sees
 /// (1 − metallic)(1 − F) L / 2 + F L, with F = .04, or the base colour ½ of a metal.
 TEST(a_plane_mirrors_by_schlick)
