@@ -193,7 +193,7 @@ TEST(interpolated_texels_hold_the_value_of_their_stencil)
     tear_down(&s);
 }
 
-TEST(any_number_of_workers_gives_the_same_map)
+TEST_SLOW(any_number_of_workers_gives_the_same_map)
 {
     static const uint32_t workers[] = {1, 2, 7, 32};
     float *first = NULL;

@@ -266,7 +266,7 @@ static void run_all(const variant *v, size_t which)
     }
 }
 
-TEST(one_page)
+TEST_SLOW(one_page)
 {
     run_all(&(variant){.pages = 1, .chart = 50}, 0);
 }
