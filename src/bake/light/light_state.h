@@ -6,7 +6,7 @@
 #include "bake/light/light_progress.h"
 #include "bake/light/light_settings.h"
 #include "maps/radiosity/final_gather.h"
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 typedef struct alpi_light_bake {
     alpi_bake_job *job;

@@ -3,7 +3,7 @@
 // factor. The held-out texels measure the factor, apart for traced and for interpolated texels.
 #include "bake/occlusion/occlusion_state.h"
 
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include <assert.h>
 #include <math.h>

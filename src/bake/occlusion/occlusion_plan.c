@@ -2,7 +2,7 @@
 // How many rays the next round of occlusion takes.
 #include "bake/occlusion/occlusion_state.h"
 
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include <math.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The error of a map in two numbers, from the standard errors of its texels.
-#ifndef ALPI_MAPS_STATED_ERROR_H
-#define ALPI_MAPS_STATED_ERROR_H
+#ifndef ALPI_MAPS_RELATIVE_ERROR_H
+#define ALPI_MAPS_RELATIVE_ERROR_H
 
 #include "base/tasks.h"
 #include "maps/texels/lattice.h"
