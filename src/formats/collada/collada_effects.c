@@ -113,6 +113,33 @@ static alp_result read_texture(alpi_collada_reader *reader, const scopes *in,
     return use_image(reader, image, &slot->image);
 }
 
+/// The numbers of a colour: its own, or those of the parameter that it names. NULL without.
+static const xmlNode *find_color(const scopes *in, const xmlNode *element)
+{
+    const xmlNode *param = alpi_xml_child(element, "param");
+    if (param == NULL) {
+        return alpi_xml_child(element, "color");
+    }
+    const xmlNode *named = find_param(in, alpi_xml_attribute(param, "ref"));
+    const xmlNode *color = alpi_xml_child(named, "float4");
+    return color != NULL ? color : alpi_xml_child(named, "float3");
+}
+
+/// Three numbers, or four where the last is of interest. False at what is no number.
+static bool read_color(const xmlNode *color, double rgba[4])
+{
+    const double none[4] = {0, 0, 0, 1};
+    const char *at = alpi_xml_text(color);
+    memcpy(rgba, none, sizeof none);
+    at += strspn(at, " \t\r\n");
+    for (int k = 0; k < 4 && *at != '\0'; k++) {
+        if (!alpi_text_number(&at, &rgba[k]) || !isfinite(rgba[k])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// <color>, <texture> or <param> of a member of the shader.
 static alp_result read_slot(alpi_collada_reader *reader, const scopes *in, const xmlNode *shader,
                             const char *member, alpi_collada_slot *slot)
@@ -127,23 +154,14 @@ static alp_result read_slot(alpi_collada_reader *reader, const scopes *in, const
         return read_texture(reader, in, texture, slot);
     }
     if (param != NULL) {
-        const xmlNode *named = find_param(in, alpi_xml_attribute(param, "ref"));
-        color = alpi_xml_child(named, "float4");
-        color = color != NULL ? color : alpi_xml_child(named, "float3");
+        color = find_color(in, element);
     }
     if (color == NULL) {
         return ALP_OK;
     }
-    double rgba[4] = {0, 0, 0, 1};
-    const char *at = alpi_xml_text(color);
-    at += strspn(at, " \t\r\n");
-    for (int k = 0; k < 4 && *at != '\0'; k++) { // three where a fourth is of no interest
-        if (!alpi_text_number(&at, &rgba[k]) || !isfinite(rgba[k])) {
-            return alpi_collada_fail(reader->document, color, "must hold three or four numbers");
-        }
-    }
-    memcpy(slot->color, rgba, sizeof rgba);
-    return ALP_OK;
+    return read_color(color, slot->color)
+               ? ALP_OK
+               : alpi_collada_fail(reader->document, color, "must hold three or four numbers");
 }
 
 static alp_result read_number(const alpi_collada_reader *reader, const scopes *in,
@@ -208,6 +226,35 @@ static alp_result read_normal(alpi_collada_reader *reader, const scopes *in,
     return read_texture(reader, in, texture, &effect->normal);
 }
 
+static bool has_texture(const xmlNode *shader, const char *member)
+{
+    return alpi_xml_child(alpi_xml_child(shader, member), "texture") != NULL;
+}
+
+/// Gloss, which conversions carry. A bake can do without, so faults in it count as not stated.
+static alp_result read_gloss(const alpi_collada_reader *reader, const scopes *in,
+                             const xmlNode *shader, alpi_collada_effect *effect)
+{
+    const xmlNode *specular = find_color(in, alpi_xml_child(shader, "specular"));
+    const xmlNode *reflective = find_color(in, alpi_xml_child(shader, "reflective"));
+    double color[4], shininess = -1.0, reflectivity = 1.0;
+    const alp_result result = read_number(reader, in, shader, "shininess", &shininess);
+    const alp_result mirror = read_number(reader, in, shader, "reflectivity", &reflectivity);
+    if (result == ALP_ERROR_OUT_OF_MEMORY || mirror == ALP_ERROR_OUT_OF_MEMORY) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    effect->shininess = result == ALP_OK ? (float)fmin(shininess, 1e6) : -1.0f;
+    for (int k = 0; specular != NULL && read_color(specular, color) && k < 3; k++) {
+        effect->specular[k] = (float)fmin(fmax(color[k], 0.0), 1.0);
+    }
+    effect->has_gloss_map = has_texture(shader, "specular") || has_texture(shader, "shininess");
+    effect->has_mirror = mirror == ALP_OK && reflectivity > 0.0 &&
+                         (has_texture(shader, "reflective") ||
+                          (reflective != NULL && read_color(reflective, color) &&
+                           color[0] + color[1] + color[2] > 0.0));
+    return ALP_OK;
+}
+
 static void read_opaque(const xmlNode *shader, alpi_collada_effect *effect)
 {
     static const char *const names[] = {"A_ONE", "A_ZERO", "RGB_ONE", "RGB_ZERO"};
@@ -252,6 +299,7 @@ static alp_result fill_effect(alpi_collada_reader *reader, const xmlNode *elemen
         effect->double_sided |= alpi_collada_is_double_sided(places[i]);
     }
     ALP_TRY(read_normal(reader, &in, effect));
+    ALP_TRY(read_gloss(reader, &in, shader, effect));
     for (int k = 0; k < 3 && effect->emission.image != ALPI_NONE; k++) {
         effect->emission.color[k] *= find_strength(in.technique);
     }
@@ -270,7 +318,8 @@ static alp_result fill_effect_or_grey(alpi_collada_reader *reader, const xmlNode
         alpi_warn(reader->context, "effect", reader->document->path,
                   "%s; a grey of albedo 0.5 is used", reason);
         const alpi_collada_slot none = {.color = {1, 1, 1, 1}, .image = ALPI_NONE};
-        *effect = (alpi_collada_effect){none, none, none, none, none, .transparency = 1.0};
+        *effect = (alpi_collada_effect){
+            none, none, none, none, none, .transparency = 1.0, .shininess = -1.0f};
         effect->diffuse = (alpi_collada_slot){true, {0.5, 0.5, 0.5, 1.0}, .image = ALPI_NONE};
     }
     return result;

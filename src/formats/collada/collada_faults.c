@@ -4,6 +4,8 @@
 // once a file.
 #include "formats/collada/collada_read.h"
 
+#include "formats/collada/collada_scene.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -63,19 +65,22 @@ static void tell_missing(const alpi_collada_reader *reader)
     }
 }
 
+const char *alpi_collada_reason(const alpi_collada_document *document)
+{
+    const char *message = alp_context_message(document->context);
+    const size_t length = strlen(document->path);
+    const bool named = strncmp(message, document->path, length) == 0 && message[length] == ':';
+    message += named ? length + 1 : 0;
+    return message + strspn(message, " ");
+}
+
 bool alpi_collada_survives(const alpi_collada_document *document, alp_result *result,
                            char reason[ALPI_COLLADA_REASON_SIZE])
 {
     if (*result != ALP_ERROR_INVALID_DATA) {
         return false;
     }
-    const char *message = alp_context_message(document->context);
-    const size_t length = strlen(document->path);
-    if (strncmp(message, document->path, length) == 0 && message[length] == ':') {
-        message += length + 1; // the warning has the path
-        message += strspn(message, " ");
-    }
-    snprintf(reason, ALPI_COLLADA_REASON_SIZE, "%s", message);
+    snprintf(reason, ALPI_COLLADA_REASON_SIZE, "%s", alpi_collada_reason(document));
     *result = ALP_OK;
     return true;
 }
@@ -136,5 +141,27 @@ void alpi_collada_tell_oddities(const alpi_collada_reader *r)
                   "textures left out because they are bound to a coordinate set that their "
                   "primitive does not have, this one first: %u; correct the input_set",
                   r->lost_sets);
+    }
+}
+
+void alpi_collada_tell_losses(const alp_scene *scene)
+{
+    const alpi_collada_origin *origin = scene->attachments[ALPI_ATTACHMENT_COLLADA].data;
+    if (origin == NULL) {
+        return;
+    }
+    const struct {
+        uint32_t count;
+        const char *kind;
+    } losses[] = {{origin->losses.heights, "effects with a bump map of heights"},
+                  {origin->losses.gloss_maps, "effects with a texture of specular colour or gloss"},
+                  {origin->losses.mirrors, "effects that reflect an environment"},
+                  {origin->losses.animations, "animations"}};
+    for (size_t i = 0; i < sizeof losses / sizeof *losses; i++) {
+        if (losses[i].count > 0) {
+            alpi_warn(scene->context, "conversion", origin->document->path,
+                      "not carried into another format: %s: %u; write .dae to keep them",
+                      losses[i].kind, losses[i].count);
+        }
     }
 }

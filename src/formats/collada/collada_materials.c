@@ -89,6 +89,8 @@ static void fill_material(alpi_collada_reader *reader, const alpi_collada_effect
     if (effect->baked) {
         use_texture(reader, &effect->ambient, sets[3], &material->occlusion_texture);
     }
+    memcpy(material->specular, effect->specular, sizeof material->specular);
+    material->shininess = effect->shininess;
     set_texture(&effect->normal, sets[4],
                 &material->normal_texture); // decoded when it is asked for
 }
@@ -299,7 +301,7 @@ static alp_result decode_image(const alpi_collada_document *document, const xmlN
     char owner[ALPI_COLLADA_OWNER_SIZE];
     alpi_collada_owner(document, element, owner);
     alpi_warn(context, "image", owner, "%.400s; the materials that use it are white there",
-              alp_context_message(context));
+              alpi_collada_reason(document));
     return ALP_OK;
 }
 

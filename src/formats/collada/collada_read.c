@@ -382,6 +382,22 @@ static alp_result move_to_origin(alpi_collada_reader *reader)
 
 // --- all together --------------------------------------------------------------------------------
 
+static void count_losses(const alpi_collada_reader *reader, alpi_collada_losses *losses)
+{
+    const xmlNode *library = alpi_xml_child(reader->document->root, "library_animations");
+    for (uint32_t i = 0; i < reader->effect_count; i++) {
+        losses->heights += reader->effects[i].has_heights;
+        losses->gloss_maps += reader->effects[i].has_gloss_map;
+        losses->mirrors += reader->effects[i].has_mirror;
+    }
+    for (; library != NULL; library = alpi_xml_next(library, "library_animations")) {
+        const xmlNode *animation = alpi_xml_child(library, "animation");
+        for (; animation != NULL; animation = alpi_xml_next(animation, "animation")) {
+            losses->animations++;
+        }
+    }
+}
+
 static alp_result fill_scene(alpi_collada_reader *reader, alpi_collada_origin *origin)
 {
     ALP_TRY(alpi_collada_read_asset(reader));
@@ -396,6 +412,7 @@ static alp_result fill_scene(alpi_collada_reader *reader, alpi_collada_origin *o
     for (uint32_t i = 0; i < reader->image_count; i++) {
         origin->images[i] = reader->images[i].element;
     }
+    count_losses(reader, &origin->losses);
     for (uint32_t m = 0; m < reader->material_count; m++) {
         origin->materials[m] = reader->materials[m].element;
     }
@@ -417,6 +434,7 @@ alp_result alpi_collada_scene_from_document(alpi_collada_document *document, alp
         return result;
     }
     origin->document = document;
+    made->read_image = alpi_collada_read_image;
     made->attachments[ALPI_ATTACHMENT_COLLADA] = (alpi_attachment){origin, destroy_origin};
     made->input_hash = alpi_hash_bytes(ALPI_HASH_START, document->file_bytes, document->file_size);
     result = alpi_collada_reader_create(document, &reader);

@@ -145,8 +145,11 @@ typedef struct alpi_collada_effect {
     bool opaque_given;
     double transparency;
     bool double_sided;
-    bool has_heights; // a <bump> of heights, which is not read
-    bool baked;       // its ambient texture is an occlusion map of ours
+    float specular[3], shininess; // below 0 where it is not stated
+    bool has_heights;             // a <bump> of heights, which is not read
+    bool has_gloss_map;           // a texture of specular colour or shininess
+    bool has_mirror;              // reflects an environment
+    bool baked;                   // its ambient texture is an occlusion map of ours
 } alpi_collada_effect;
 
 /// A material of the scene: a <material> with the coordinate sets that an instance binds.
@@ -219,8 +222,10 @@ alp_result alpi_collada_refer(alpi_collada_reader *reader, const xmlNode *node,
                               const char *attribute, const char *name, xmlNode **target);
 /// Tells what was met while the file was read: a warning or note for each kind.
 void alpi_collada_tell_oddities(const alpi_collada_reader *reader);
+/// The message of the last fault without the document's path, for warnings that have it.
+const char *alpi_collada_reason(const alpi_collada_document *document);
 /// Whether a result is INVALID_DATA, which then becomes ALP_OK. The caller leaves the element out
-/// and warns with the reason, which is the message without the document's path.
+/// and warns with the reason.
 bool alpi_collada_survives(const alpi_collada_document *document, alp_result *result,
                            char reason[ALPI_COLLADA_REASON_SIZE]);
 
@@ -276,6 +281,10 @@ typedef struct alpi_collada_surface {
     xmlNode *primitive, *geometry, *instance;
     uint32_t placement;
 } alpi_collada_surface;
+/// What is read from the document but has no place in another format.
+typedef struct alpi_collada_losses {
+    uint32_t heights, gloss_maps, mirrors, animations;
+} alpi_collada_losses;
 typedef struct alpi_collada_origin {
     alpi_collada_document *document;
     alpi_collada_surface *surfaces;     // [surface_count]
@@ -283,6 +292,7 @@ typedef struct alpi_collada_origin {
     xmlNode **images;                   // [image_count] of the scene
     alpi_collada_placement *placements; // [placement_count]
     uint32_t placement_count;
+    alpi_collada_losses losses;
 } alpi_collada_origin;
 
 /// The scene takes the document over (also on failure).

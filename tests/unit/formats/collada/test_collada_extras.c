@@ -3,12 +3,13 @@
 #include "test_collada.h"
 
 #include "base/file.h"
-#include "formats/collada/collada_scene.h"
-#include "formats/images/images.h"
+#include "base/memory.h"
+#include "formats/formats.h"
 
-#include <alpenglow/geometry.h>
+#include <alpenglow/alpenglow.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// A triangle with coordinates; more text in <texture>, <technique>, <effect> and <geometry>.
@@ -16,10 +17,9 @@ typedef struct extras {
     const char *texture, *technique, *effect, *geometry;
 } extras;
 
-static alp_scene *read_with(alp_context *context, extras more)
+static const char *inside_with(extras more)
 {
     static char inside[8192];
-    alp_scene *scene = NULL;
     snprintf(
         inside, sizeof inside,
         "<library_images><image id='i'><init_from>i.png</init_from></image><image id='b'>"
@@ -38,7 +38,13 @@ static alp_scene *read_with(alp_context *context, extras more)
         "<library_visual_scenes><visual_scene id='s'><node><instance_geometry url='#g'/></node>"
         "</visual_scene></library_visual_scenes>" TEST_COLLADA_SCENE,
         more.texture, more.technique, more.effect, more.geometry);
-    ASSERT_OK(context, test_collada_scene(context, inside, &scene));
+    return inside;
+}
+
+static alp_scene *read_with(alp_context *context, extras more)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, test_collada_scene(context, inside_with(more), &scene));
     assert_int_equal(scene->material_count, 1);
     return scene;
 }
@@ -158,5 +164,103 @@ TEST_WITH_CONTEXT(reported_files, 1)
     const alpi_texture *texture = &scene->materials[0].base_color_texture;
     ASSERT_NEAR(texture->scale[0], 2.0, 0.0);
     ASSERT_NEAR(texture->scale[1], 2.0, 0.0);
+    alp_scene_destroy(scene);
+}
+
+// --- into other formats --------------------------------------------------------------------------
+
+#define GLOSS                                                                                      \
+    "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><phong><diffuse><color>1 " \
+    "0 0 1</color></diffuse><specular><color>0.5 0.25 0 1</color></specular><shininess><float>6"   \
+    "</float></shininess><reflective><color>1 1 1 1</color></reflective></phong>" BUMP(            \
+        " bumptype='HEIGHTFIELD'") "</technique></profile_COMMON></effect></library_effects>"      \
+                                   "<library_materials><material id='m'><instance_effect "         \
+                                   "url='#e'/></material></library_materials>"                     \
+                                   "<library_animations><animation/></library_animations>"
+
+/// Text of the scene's file in a format, with a map on its triangle; released with alpi_release.
+static char *write_and_read(const alp_scene *scene, const char *folder, const char *name,
+                            const char *read)
+{
+    static const float uvs[1][3][2] = {{{0.1f, 0.1f}, {0.9f, 0.1f}, {0.9f, 0.9f}}};
+    static const uint8_t *const pngs[] = {(const uint8_t *)"x"};
+    static const size_t sizes[] = {1};
+    const alpi_mesh_patch patch = {
+        .page_count = 1, .corner_uvs = uvs, .page_pngs = pngs, .page_png_sizes = sizes};
+    uint8_t *bytes = NULL;
+    size_t size = 0;
+    ASSERT_OK(scene->context,
+              alpi_scene_write_patched(scene, &patch, test_path(folder, name), true));
+    ASSERT_OK(scene->context,
+              alpi_file_read(scene->context, test_path(folder, read), 1 << 20, &bytes, &size));
+    return (char *)bytes; // a zero byte is behind them
+}
+
+/// Gloss goes where the format has a place; each kind that has none is told once. A document of
+/// its own format keeps all.
+TEST_WITH_CONTEXT(conversions, 1)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context, test_collada_scene(
+                           context,
+                           GLOSS TEST_COLLADA_SQUARE("<triangles material='m' count='1'>" //
+                                                     TEST_COLLADA_INPUT "<p>0 1 2</p></triangles>")
+                               TEST_COLLADA_SHOWN,
+                           &scene));
+    ASSERT_NEAR(scene->materials[0].specular[1], 0.25, 0.0);
+    ASSERT_NEAR(scene->materials[0].shininess, 6.0, 0.0);
+    test_log_clear();
+    char *text = write_and_read(scene, test_folder(), "a.gltf", "a.gltf");
+    assert_non_null(strstr(text, "\"roughnessFactor\":0.7071")); // (2 / 8)^(1/4)
+    assert_non_null(strstr(text, "\"specularColorFactor\":[1,0.5,0]"));
+    assert_non_null(strstr(text, "\"KHR_materials_specular\""));
+    alpi_release(context, text);
+    assert_non_null(strstr(test_log_text(), "bump map of heights: 1"));
+    assert_non_null(strstr(test_log_text(), "reflect an environment: 1"));
+    assert_non_null(strstr(test_log_text(), "animations: 1"));
+    assert_null(strstr(test_log_text(), "or gloss"));
+    text = write_and_read(scene, test_folder(), "a.obj", "a.mtl");
+    assert_non_null(strstr(text, "Ks 0.5 0.25 0\nNs 6\n"));
+    alpi_release(context, text);
+    test_log_clear();
+    text = write_and_read(scene, test_folder(), "a.dae", "a.dae");
+    assert_non_null(strstr(text, "<shininess>"));
+    assert_int_equal(test_log_has("conversion"), 0);
+    alpi_release(context, text);
+    alp_scene_destroy(scene);
+}
+
+/// Writes a grey picture of one pixel.
+static void write_picture(alp_context *context, const char *folder, const char *name)
+{
+    alp_image *image = NULL;
+    const alp_image_info info = {1, 1, 3, ALP_COMPONENT_U8};
+    ASSERT_OK(context, alp_image_create(context, info, &image));
+    memset(alp_image_bytes(image), 128, 3);
+    ASSERT_OK(context, alp_image_save(image, test_path(folder, name), true));
+    alp_image_destroy(image);
+}
+
+/// A normal map is decoded for the file that it goes into.
+TEST_WITH_CONTEXT(converted_normal_maps, 1)
+{
+    char folder[256];
+    size_t size;
+    alp_scene *scene = NULL, *again = NULL;
+    snprintf(folder, sizeof folder, "%s", test_folder());
+    write_picture(context, folder, "i.png");
+    write_picture(context, folder, "b.png");
+    char *text = test_collada_text(inside_with((extras){"", BUMP(""), "", ""}), &size);
+    ASSERT_OK(context, alpi_file_write(context, test_path(folder, "n.dae"), true, text, size));
+    free(text);
+    ASSERT_OK(context, alp_scene_load(context, test_path(folder, "n.dae"), &scene));
+    assert_null(scene->images[scene->materials[0].normal_texture.image]);
+    alpi_release(context, write_and_read(scene, folder, "n.glb", "n.glb"));
+    ASSERT_OK(context, alp_scene_load(context, test_path(folder, "n.glb"), &again));
+    const uint32_t image = again->materials[0].normal_texture.image;
+    assert_int_not_equal(image, ALPI_NONE);
+    ASSERT_OK(context, alp_scene_load_normal_maps(again));
+    assert_non_null(again->normal_maps[image]);
+    alp_scene_destroy(again);
     alp_scene_destroy(scene);
 }
