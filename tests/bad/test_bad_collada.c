@@ -123,6 +123,8 @@ TEST_WITH_CONTEXT(causes, 1)
         {"<COLLADA><a b='1' b='2'/></COLLADA>", "is there twice"},
         {"<?xml version='1.0' encoding='shift_jis'?><COLLADA>\xff\xfe</COLLADA>",
          "not of the encoding that the file states; save it as UTF-8"},
+        {"\n<?xml version='1.0'?><COLLADA/>", "not at the very beginning"},
+        {"COLLADA", "so it is no XML"},
         {"<COLLADA><a>", "it may be truncated"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

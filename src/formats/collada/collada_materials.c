@@ -265,7 +265,8 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                  find_set(reader, binding, part, &effect->transparent),
                  find_set(reader, binding, part, &effect->ambient),
                  find_set(reader, binding, part, &effect->normal)},
-        .double_sided = effect->double_sided || alpi_collada_is_double_sided(geometry),
+        .double_sided = effect->double_sided || alpi_collada_is_double_sided(geometry) ||
+                        alpi_collada_is_double_sided(alpi_xml_child(geometry, "mesh")),
         .next = ALPI_NONE};
     ALP_TRY(get_material(reader, &wanted, effect, material));
     read_blend(reader, binding, part, &reader->scene->materials[*material]);

@@ -73,6 +73,10 @@ static const char *explain(const first_fault *fault)
     case XML_ERR_UNSUPPORTED_ENCODING:
     case XML_ERR_UNKNOWN_ENCODING:
         return "an encoding that is not read; save it as UTF-8";
+    case XML_ERR_RESERVED_XML_NAME:
+        return "<?xml ...?> is not at the very beginning; take out what stands before it";
+    case XML_ERR_DOCUMENT_EMPTY:
+        return "no \"<\" begins the text, so it is no XML";
     case XML_ERR_ATTRIBUTE_REDEFINED:
         return "an attribute that is there twice; take one out";
     default:

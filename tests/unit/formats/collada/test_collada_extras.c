@@ -86,6 +86,7 @@ TEST_WITH_CONTEXT(both_sides, 1)
     } cases[] = {
         {{"", "", "", ""}, false},
         {{"", "", "", EXTRA("<double_sided>1</double_sided>")}, true},
+        {{"", "", "", "<extra/>" EXTRA("<double_sided>true</double_sided>")}, true},
         {{"", "", "", EXTRA("<double_sided>0</double_sided>")}, false},
         {{"", "", EXTRA("<double_sided> TRUE</double_sided>"), ""}, true},
         {{"", EXTRA("<shadow>1</shadow>") EXTRA("<double_sided>1</double_sided>"), "", ""}, true},
