@@ -5,7 +5,6 @@
 // could do neither, and threads that read it would race.
 #include "base/memory.h"
 #include "formats/gltf/gltf_read.h"
-#include "formats/obj/obj_scene.h"
 
 #include <alpenglow/geometry.h>
 
@@ -35,8 +34,10 @@ static void mark_normal_maps(const alp_scene *scene, bool *used, bool *needed)
 static alp_result read_image(const alp_scene *scene, uint32_t index, alp_image **image)
 {
     const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
-    return document != NULL ? alpi_gltf_read_image(document, index, image)
-                            : alpi_obj_read_picture(scene, index, image);
+    *image = NULL;
+    return document != NULL            ? alpi_gltf_read_image(document, index, image)
+           : scene->read_image != NULL ? scene->read_image(scene, index, image)
+                                       : ALP_OK;
 }
 
 static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)

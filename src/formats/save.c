@@ -5,6 +5,9 @@
 alp_result alpi_scene_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                   const char *path, alpi_file_set *files)
 {
+    if (!alpi_path_has_ending(path, ".dae")) {
+        alpi_collada_tell_losses(scene);
+    }
     return alpi_path_has_ending(path, ".obj") ? alpi_obj_add_patched(scene, patch, path, files)
            : alpi_path_has_ending(path, ".dae")
                ? alpi_collada_add_patched(scene, patch, path, files)

@@ -51,6 +51,9 @@ typedef struct alpi_material {
     alpi_texture transmission_texture; // channel R, linear
     alpi_texture normal_texture;       // tangent space, linear; bakes do not read it
     float normal_scale;                // of its x and y
+    // Gloss as Phong's and Blinn's models have it; bakes do not read it.
+    float specular[3];
+    float shininess; // exponent, below 0 where the file states none
 } alpi_material;
 
 typedef struct alpi_surface {
@@ -140,6 +143,9 @@ struct alp_scene {
     alp_image **images; // NULL where none of our uses needs it or decoding failed (with a warning)
     alp_image **normal_maps; // [image_count] images that only alp_scene_get_image gives, apart so
                              // that writers do not copy them; NULL before they are loaded
+    /// Decodes an image by the file that the scene was read from, for the caller to destroy; NULL
+    /// in *image, with a warning, where it cannot be. NULL: no reader set it.
+    alp_result (*read_image)(const alp_scene *scene, uint32_t index, alp_image **image);
     uint32_t light_count;
     alpi_light *lights;
     uint32_t camera_count;

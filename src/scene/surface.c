@@ -28,7 +28,8 @@ alpi_material alpi_material_default(void)
                            .occlusion_strength = 1.0f,
                            .transmission_texture = alpi_texture_none(),
                            .normal_texture = alpi_texture_none(),
-                           .normal_scale = 1.0f};
+                           .normal_scale = 1.0f,
+                           .shininess = -1.0f};
 }
 
 vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)

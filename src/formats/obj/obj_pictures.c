@@ -34,6 +34,7 @@ alp_result alpi_obj_keep_pictures(alpi_obj *obj, alpi_obj_names *images, alp_sce
     *kept = (pictures){obj->folder, *images};
     obj->folder = NULL;
     *images = alpi_obj_names_create(obj->context);
+    scene->read_image = alpi_obj_read_picture;
     scene->attachments[ALPI_ATTACHMENT_PICTURES] = (alpi_attachment){kept, destroy_pictures};
     return ALP_OK;
 }

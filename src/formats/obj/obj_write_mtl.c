@@ -128,7 +128,15 @@ static void print_colors(alpi_obj_writer *w, alpi_obj_use use, const alpi_materi
     }
     alpi_bytes_print(&w->mtl, "d ");
     alpi_bytes_float(&w->mtl, m->alpha_mode == ALPI_ALPHA_BLEND ? m->base_color[3] : 1.0f);
-    alpi_bytes_print(&w->mtl, "\nillum 1\n");
+    if (lit || m->shininess < 0.0f) {
+        alpi_bytes_print(&w->mtl, "\nillum 1\n");
+        return;
+    }
+    alpi_bytes_print(&w->mtl, "\nillum 2\n");
+    print_color(w, "Ks", m->specular);
+    alpi_bytes_print(&w->mtl, "Ns ");
+    alpi_bytes_float(&w->mtl, m->shininess);
+    alpi_bytes_print(&w->mtl, "\n");
 }
 
 static void print_maps(alpi_obj_writer *w, alpi_obj_use use, const alpi_material *m)

@@ -38,7 +38,7 @@ typedef struct exporter {
     size_t counts[LIST_COUNT];
     alpi_bytes bin;
     size_t *images; // [image_count] in the file, SIZE_MAX = left out
-    bool has_emissive_strength, has_transmission, has_transform;
+    bool has_emissive_strength, has_transmission, has_specular, has_transform;
 } exporter;
 
 /// Begins an element: a comma where it is not the first.
@@ -154,9 +154,9 @@ static uint32_t needed_uv_sets(const alp_scene *scene, const alpi_surface *surfa
     uint32_t sets = surface->uv_sets;
     if (surface->material != ALPI_NONE) {
         const alpi_material *m = &scene->materials[surface->material];
-        const alpi_texture textures[] = {m->base_color_texture, m->metallic_texture,
-                                         m->emission_texture, m->occlusion_texture,
-                                         m->transmission_texture};
+        const alpi_texture textures[] = {m->base_color_texture,   m->metallic_texture,
+                                         m->emission_texture,     m->occlusion_texture,
+                                         m->transmission_texture, m->normal_texture};
         for (size_t i = 0; i < sizeof textures / sizeof *textures; i++) {
             if (textures[i].image != ALPI_NONE && textures[i].uv_set >= sets) {
                 sets = textures[i].uv_set + 1;
@@ -222,25 +222,47 @@ static alp_result add_surfaces(exporter *e)
 
 // --- materials -----------------------------------------------------------------------------------
 
+static alp_result add_image(exporter *e, uint32_t index, const alp_image *image)
+{
+    uint8_t *png = NULL;
+    size_t size = 0;
+    if (image == NULL || image->info.component != ALP_COMPONENT_U8) {
+        return ALP_OK;
+    }
+    ALP_TRY(alpi_png_encode(image, &png, &size));
+    size_t view = add_view(e, png, size, 0);
+    alpi_release(e->context, png);
+    alpi_bytes_print(begin(e, IMAGES), "{\"bufferView\":%zu,\"mimeType\":\"image/png\"}", view);
+    e->images[index] = e->counts[IMAGES] - 1;
+    return ALP_OK;
+}
+
+/// Normal maps, which the scene does not hold unless a host has asked for them.
+static alp_result add_normal_maps(exporter *e)
+{
+    for (uint32_t m = 0; m < e->scene->material_count && e->scene->read_image != NULL; m++) {
+        const uint32_t index = e->scene->materials[m].normal_texture.image;
+        if (index >= e->scene->image_count || e->images[index] != SIZE_MAX) {
+            continue;
+        }
+        alp_image *image = NULL;
+        ALP_TRY(e->scene->read_image(e->scene, index, &image));
+        const alp_result result = add_image(e, index, image);
+        alp_image_destroy(image);
+        ALP_TRY(result);
+    }
+    return ALP_OK;
+}
+
 /// Images that can be stored as PNG: those of bytes.
 static alp_result add_images(exporter *e)
 {
     ALPI_TRY_NEW(e->context, e->images, e->scene->image_count);
     for (uint32_t i = 0; i < e->scene->image_count; i++) {
-        const alp_image *image = e->scene->images[i];
         e->images[i] = SIZE_MAX;
-        if (image == NULL || image->info.component != ALP_COMPONENT_U8) {
-            continue;
-        }
-        uint8_t *png = NULL;
-        size_t size = 0;
-        ALP_TRY(alpi_png_encode(image, &png, &size));
-        size_t view = add_view(e, png, size, 0);
-        alpi_release(e->context, png);
-        alpi_bytes_print(begin(e, IMAGES), "{\"bufferView\":%zu,\"mimeType\":\"image/png\"}", view);
-        e->images[i] = e->counts[IMAGES] - 1;
+        ALP_TRY(add_image(e, i, e->scene->images[i]));
     }
-    return ALP_OK;
+    return add_normal_maps(e);
 }
 
 /// A texture with its sampler, and the reference to it, with a comma before; nothing where there is
@@ -278,18 +300,39 @@ static void add_texture(exporter *e, alpi_bytes *text, const char *name,
     alpi_bytes_print(text, "}");
 }
 
+/// The tint of the specular colour; its strength is of another model and stays behind. False where
+/// the default says the same.
+static bool find_tint(const alpi_material *m, float tint[3])
+{
+    const float most = fmaxf(m->specular[0], fmaxf(m->specular[1], m->specular[2]));
+    bool coloured = false;
+    for (int k = 0; k < 3; k++) {
+        tint[k] = most > 0.0f ? m->specular[k] / most : 0.0f;
+        coloured |= tint[k] != 1.0f;
+    }
+    return m->shininess >= 0.0f && coloured;
+}
+
 /// Material extensions: emissiveFactor is at most 1, what is brighter goes into
 /// KHR_materials_emissive_strength.
 static void print_material_extensions(exporter *e, alpi_bytes *text, const alpi_material *m,
                                       float strength)
 {
+    float tint[3];
     const bool bright = strength > 1.0f, clear = m->transmission > 0.0f;
+    const bool tinted = find_tint(m, tint);
     e->has_emissive_strength |= bright;
     e->has_transmission |= clear;
-    alpi_bytes_print(text, "%s", bright || clear ? ",\"extensions\":{" : "");
+    e->has_specular |= tinted;
+    alpi_bytes_print(text, "%s", bright || clear || tinted ? ",\"extensions\":{" : "");
     if (bright) {
         alpi_bytes_print(text, "\"KHR_materials_emissive_strength\":{");
         print_number(text, "emissiveStrength", strength);
+        alpi_bytes_print(text, "}%s", clear || tinted ? "," : "");
+    }
+    if (tinted) {
+        alpi_bytes_print(text, "\"KHR_materials_specular\":{");
+        print_numbers(text, "specularColorFactor", tint, 3);
         alpi_bytes_print(text, "}%s", clear ? "," : "");
     }
     if (clear) {
@@ -298,7 +341,7 @@ static void print_material_extensions(exporter *e, alpi_bytes *text, const alpi_
         add_texture(e, text, "transmissionTexture", &m->transmission_texture, 1.0f);
         alpi_bytes_print(text, "}");
     }
-    alpi_bytes_print(text, "%s", bright || clear ? "}" : "");
+    alpi_bytes_print(text, "%s", bright || clear || tinted ? "}" : "");
 }
 
 static void print_emission(exporter *e, alpi_bytes *text, const alpi_material *m)
@@ -315,6 +358,15 @@ static void print_emission(exporter *e, alpi_bytes *text, const alpi_material *m
     print_material_extensions(e, text, m, strength);
 }
 
+/// Roughness whose lobe is that of a Blinn-Phong exponent n: √(2 / (n + 2)) is its square. 1
+/// without specular colour. Walter, Marschner, Li, Torrance. Microfacet models for refraction. EGSR
+/// 2007.
+static float roughness_of(const alpi_material *m)
+{
+    const float *c = m->specular;
+    return c[0] + c[1] + c[2] > 0.0f ? powf(2.0f / (m->shininess + 2.0f), 0.25f) : 1.0f;
+}
+
 static void add_material(exporter *e, const alpi_material *m)
 {
     alpi_bytes *text = begin(e, MATERIALS);
@@ -326,8 +378,13 @@ static void add_material(exporter *e, const alpi_material *m)
     print_number(text, "metallicFactor", m->metallic);
     add_texture(e, text, "baseColorTexture", &m->base_color_texture, 1.0f);
     add_texture(e, text, "metallicRoughnessTexture", &m->metallic_texture, 1.0f);
+    if (m->shininess >= 0.0f) {
+        alpi_bytes_print(text, ",");
+        print_number(text, "roughnessFactor", roughness_of(m));
+    }
     alpi_bytes_print(text, "}");
     print_emission(e, text, m);
+    add_texture(e, text, "normalTexture", &m->normal_texture, 1.0f);
     add_texture(e, text, "emissiveTexture", &m->emission_texture, 1.0f);
     add_texture(e, text, "occlusionTexture", &m->occlusion_texture, m->occlusion_strength);
     if (m->alpha_mode != ALPI_ALPHA_OPAQUE) {
@@ -426,6 +483,7 @@ static void print_extensions(const exporter *e, alpi_bytes *json)
         bool used;
         const char *name;
     } extensions[] = {{e->has_emissive_strength, "KHR_materials_emissive_strength"},
+                      {e->has_specular, "KHR_materials_specular"},
                       {e->has_transmission, "KHR_materials_transmission"},
                       {e->has_transform, "KHR_texture_transform"},
                       {e->counts[LIGHTS] > 0, "KHR_lights_punctual"}};
