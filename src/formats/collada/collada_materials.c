@@ -248,7 +248,6 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
 {
     const xmlNode *binding =
         alpi_collada_bound_to(reader->document, placement->instance, part->symbol);
-    const xmlNode *geometry = reader->meshes[placement->mesh].geometry;
     xmlNode *element = NULL, *effect_element = NULL;
     *material = ALPI_NONE;
     ALP_TRY(find_material(reader, binding, part->symbol, &element, &effect_element));
@@ -265,8 +264,7 @@ alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                  find_set(reader, binding, part, &effect->transparent),
                  find_set(reader, binding, part, &effect->ambient),
                  find_set(reader, binding, part, &effect->normal)},
-        .double_sided = effect->double_sided || alpi_collada_is_double_sided(geometry) ||
-                        alpi_collada_is_double_sided(alpi_xml_child(geometry, "mesh")),
+        .double_sided = effect->double_sided || reader->meshes[placement->mesh].double_sided,
         .next = ALPI_NONE};
     ALP_TRY(get_material(reader, &wanted, effect, material));
     read_blend(reader, binding, part, &reader->scene->materials[*material]);

@@ -297,7 +297,11 @@ alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry
     }
     ALP_TRY(alpi_collada_grow(reader->context, &reader->meshes, &reader->mesh_capacity,
                               reader->mesh_count + 1, sizeof *reader->meshes));
-    alpi_collada_mesh made = {.geometry = geometry, .index = reader->mesh_count};
+    alpi_collada_mesh made = {.geometry = geometry,
+                              .double_sided =
+                                  alpi_collada_is_double_sided(geometry) ||
+                                  alpi_collada_is_double_sided(alpi_xml_child(geometry, "mesh")),
+                              .index = reader->mesh_count};
     alp_result result = read_parts(reader, &made, element);
     reader->meshes[reader->mesh_count++] = made; // released with the reader, also after a failure
     *slot = reader->mesh_count;

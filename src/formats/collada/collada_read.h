@@ -96,7 +96,8 @@ typedef struct alpi_collada_part {
 
 typedef struct alpi_collada_mesh {
     xmlNode *geometry;
-    uint32_t index; // order in which they are met
+    bool double_sided; // by an extra of the geometry or its <mesh>
+    uint32_t index;    // order in which they are met
     alpi_collada_part *parts;
     uint32_t part_count;
     uint64_t vertex_count, triangle_count; // of all parts, when the scene is filled
