@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The stated error after a round. The quarters of a texel's samples give its variance up to a
 // factor. The held-out texels measure the factor, apart for traced and for interpolated texels.
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_error.h"
 
 #include "maps/texels/relative_error.h"
 
@@ -46,7 +46,7 @@ static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sum
 alp_result alpi_occlusion_measure_noise(alpi_occlusion_state *state, float *noise, uint32_t *traced)
 {
     double sums[ALPI_SUM_LIMIT];
-    ALP_TRY(alpi_occlusion_sum_texels(state, sum_noise, state, sums));
+    ALP_TRY(alpi_occlusion_sum_texels(&state->clock, sum_noise, state, sums));
     *noise = sums[1] > 0.0 ? (float)sqrt(sums[0] / sums[1]) : 0.0f;
     *traced = (uint32_t)sums[1];
     return ALP_OK;
@@ -129,7 +129,7 @@ static alp_result measure_means(alpi_occlusion_state *state, error_job *job)
 {
     static_assert(2 * STATES <= (int)ALPI_SUM_LIMIT, "two sums for each state");
     double sums[ALPI_SUM_LIMIT];
-    ALP_TRY(alpi_occlusion_sum_texels(state, sum_variances, job, sums));
+    ALP_TRY(alpi_occlusion_sum_texels(&state->clock, sum_variances, job, sums));
     for (int s = 0; s < STATES; s++) {
         job->means[s] = sums[STATES + s] > 0.0 ? sums[s] / sums[STATES + s] : 0.0;
     }
@@ -185,13 +185,13 @@ static alp_result measure_texels(alpi_occlusion_state *state)
     error_job job = {
         .state = state, .lattice = state->task->lattice, .errors = state->task->errors};
     for (job.pass = 0; job.pass < ALPI_LATTICE_PASSES; job.pass++) { // each reads those before
-        ALP_TRY(alpi_occlusion_for_texels(state, measure_range, &job));
+        ALP_TRY(alpi_occlusion_for_texels(&state->clock, measure_range, &job));
     }
     ALP_TRY(measure_means(state, &job));
     for (int s = ALPI_TEXEL_TRACED; s <= ALPI_TEXEL_INTERPOLATED; s++) {
         job.factors[s] = find_factor(&job, (alpi_texel_state)s);
     }
-    return alpi_occlusion_for_texels(state, take_roots, &job);
+    return alpi_occlusion_for_texels(&state->clock, take_roots, &job);
 }
 
 // --- the stated error ----------------------------------------------------------------------------

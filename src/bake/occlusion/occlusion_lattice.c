@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which texels of a round are traced, and which are interpolated between them (lattice.h).
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_lattice.h"
 
+#include "bake/occlusion/occlusion_error.h"
+#include "bake/occlusion/occlusion_samples.h"
 #include "maps/texels/validity.h"
 
 #include <math.h>
@@ -61,7 +63,7 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
 static alp_result interpolate(alpi_occlusion_state *state, alpi_lattice_judge *judge, uint32_t pass)
 {
     judge->pass = pass;
-    return alpi_occlusion_for_texels(state, interpolate_range, judge);
+    return alpi_occlusion_for_texels(&state->clock, interpolate_range, judge);
 }
 
 static alp_result update_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -86,7 +88,7 @@ static alp_result update_range(void *user, uint32_t begin, uint32_t end, uint32_
 static alp_result update_interpolated(alpi_occlusion_state *state, alpi_lattice_judge *judge)
 {
     for (judge->pass = 1; judge->pass < ALPI_LATTICE_PASSES; judge->pass++) {
-        ALP_TRY(alpi_occlusion_for_texels(state, update_range, judge));
+        ALP_TRY(alpi_occlusion_for_texels(&state->clock, update_range, judge));
     }
     return ALP_OK;
 }
