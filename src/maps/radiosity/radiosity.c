@@ -19,17 +19,6 @@ alpi_radiosity_options alpi_radiosity_options_default(void)
                                     .kept_limit = 1ull << 30};
 }
 
-alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
-{
-    const alpi_radiosity_options *o = &radiosity->options;
-    return (alpi_gather_scene){.scene = o->scene,
-                               .tracer = o->tracer,
-                               .lighting = o->lighting,
-                               .filter = o->filter,
-                               .light = alpi_patches_light(&radiosity->patches),
-                               .sky = o->direct != o->lighting};
-}
-
 static alp_result allocate(alpi_radiosity *r)
 {
     const alpi_patches *p = &r->patches;

@@ -53,8 +53,7 @@ enum { ALPI_RADIOSITY_PATCH_RAYS = 64 }; // cosine rays of a patch
 /// Energy balance: fluxes in W, means of the channels, integrals over the areas of the receivers.
 /// Within the noise of the rays, emitted = absorbed + escaped + lost_behind + unshot.
 typedef struct alpi_energy {
-    double emitted;  // by surfaces, plus direct light of lamps, suns and sky
-    double received; // direct light alone
+    double emitted; // by surfaces, plus direct light of lamps, suns and sky
     double absorbed;
     double escaped;     // out of the scene, by the rays that hit nothing
     double lost_behind; // into black backs of surfaces, by the rays that hit them
