@@ -258,7 +258,7 @@ alpi_lattice alpi_final_gather_lattice(const alpi_final_gather_options *options,
     alpi_lattice own = *lattice;
     own.states = states;
     own.values = values;
-    own.straight = options->straight;
+    own.straight = true;
     own.along_borders = true;
     return own;
 }
@@ -272,12 +272,12 @@ alp_result alpi_final_gather(const alpi_final_gather_options *options, const alp
     job.expected = (first ? options->count : report->traced) + ALPI_HELD_OUT;
     *report = (alpi_final_gather_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
-    job.lattice = alpi_final_gather_lattice(options, lattice, states, options->levels);
+    job.lattice = alpi_final_gather_lattice(options, lattice, states, options->means);
     const alp_result result = run(&job);
     alpi_release(lattice->context, job.wanted);
     alpi_release(lattice->context, job.by_pass);
     alpi_release(lattice->context, job.list);
-    if (options->levels == NULL) {
+    if (options->means == NULL) {
         alpi_release(lattice->context, job.lattice.values);
     }
     return result;

@@ -19,13 +19,12 @@ typedef struct alpi_final_gather_options {
     uint32_t count;
     const uint8_t *proximity; // [texels] alpi_proximity, or NULL
     bool adaptive;            // false: all texels are traced
-    bool straight;            // as in alpi_lattice
     alpi_held_out *held_out;  // NULL: errors of this map alone; else in and out
     // A gatherer like that of `gather` with other random numbers. It traces held-out texels, some
     // of which this map may trace itself, and check texels if replicates are joined.
     const alpi_gatherer *independent;
     bool joined;   // replicates share one sequence (cosine_rays.h), so their spread is too large
-    float *levels; // [texels] scratch, or NULL
+    float *means;  // [texels] scratch, or NULL
 } alpi_final_gather_options;
 
 typedef struct alpi_final_gather_report {

@@ -69,7 +69,6 @@ static void map_by(setting *s, const map_options *o)
                                                .count = s->texels.count,
                                                .proximity = s->proximity,
                                                .adaptive = o->adaptive,
-                                               .straight = true,
                                                .independent = o->gatherer};
     alpi_final_gather_report report = {0};
     ASSERT_OK(s->context, alpi_final_gather(&options, &s->lattice, NULL, s->states, &report));
