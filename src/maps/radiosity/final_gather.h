@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The final gather: bounced light at the texels of an atlas, over the adaptive lattice.
 //
-// Bounced light varies slowly, except where surfaces meet, so most texels are interpolated. Passes,
+// Bounced light varies slowly, except where surfaces meet, so most texels are interpolated. Levels,
 // stencils and the flood are those of lattice.h; stencils also run along borders of charts. The
 // limits of the judge scale with the noise of the rays and with the light. The judge compares the
 // means of the channels; the same stencils interpolate each channel and the sky's part.
@@ -23,8 +23,8 @@ typedef struct alpi_final_gather_options {
     // A gatherer like that of `gather` with other random numbers. It traces held-out texels, some
     // of which this map may trace itself, and check texels if replicates are joined.
     const alpi_gatherer *independent;
-    bool joined;   // replicates share one sequence (cosine_rays.h), so their spread is too large
-    float *means;  // [texels] scratch, or NULL
+    bool joined;  // replicates share one sequence (cosine_rays.h), so their spread is too large
+    float *means; // [texels] scratch, or NULL
 } alpi_final_gather_options;
 
 typedef struct alpi_final_gather_report {
@@ -49,9 +49,8 @@ alp_result alpi_final_gather(const alpi_final_gather_options *options, const alp
                              const alpi_task_progress *progress, uint8_t *states,
                              alpi_final_gather_report *report);
 
-/// The lattice of a final gather with these options, also for later interpolation.
+/// The lattice of a final gather, also for later interpolation: straight.
 /// @param states, values [texels] of it
-alpi_lattice alpi_final_gather_lattice(const alpi_final_gather_options *options,
-                                       const alpi_lattice *lattice, uint8_t *states, float *values);
+alpi_lattice alpi_final_gather_lattice(const alpi_lattice *lattice, uint8_t *states, float *values);
 
 #endif

@@ -17,14 +17,13 @@ static float neighbours_open_share(const alpi_radiosity *r, uint32_t texel)
 {
     const alpi_patches *p = &r->patches;
     const alpi_texels *t = p->texels;
-    const uint16_t *pixel = t->pixels[texel];
+    uint32_t around[ALPI_AROUND_LIMIT], count = 0;
+    const uint32_t all = alpi_lattice_around(p->lattice, texel, around);
     float sum = 0.0f;
-    uint32_t count = 0;
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(p->lattice, t->pages[texel], pixel[0] + k % 3 - 1,
-                                              pixel[1] + k / 3 - 1);
-        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && p->patch_of[n] != ALPI_NONE &&
-            t->valid[n] == 0 && (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
+    for (uint32_t i = 0; i < all; i++) {
+        const uint32_t n = around[i];
+        if (t->charts[n] == t->charts[texel] && p->patch_of[n] != ALPI_NONE && t->valid[n] == 0 &&
+            (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
             sum += 1.0f - r->lost[p->patch_of[n]][1];
             count++;
         }

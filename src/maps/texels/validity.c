@@ -405,15 +405,14 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
 static bool is_beside_seen(const validity_job *job, uint32_t texel)
 {
     const alpi_texels *t = job->texels;
-    const uint16_t *p = t->pixels[texel];
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel],
-                                              (int64_t)p[0] + k % 3 - 1, (int64_t)p[1] + k / 3 - 1);
-        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX) {
-            return true;
-        }
+    uint32_t around[ALPI_AROUND_LIMIT];
+    const uint32_t count = alpi_lattice_around(job->lattice, texel, around);
+    bool found = false;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t n = around[i];
+        found = found || (t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX);
     }
-    return false;
+    return found;
 }
 
 /// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those

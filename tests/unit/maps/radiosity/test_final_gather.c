@@ -93,7 +93,7 @@ static bool has_stencil(setting *s, uint32_t texel)
     uint8_t known[SIZE * SIZE];
     memset(known, ALPI_TEXEL_TRACED, sizeof known);
     l.states = known;
-    l.along_borders = true;
+    l.straight = true;
     return alpi_lattice_stencil(&l, texel, &stencil);
 }
 

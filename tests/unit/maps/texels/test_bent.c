@@ -153,7 +153,7 @@ TEST(cubic_weights_that_turn_a_direction_over_are_dropped)
     int tried = 0;
     for (uint32_t t = 0; t < s.texels.count; t++) {
         alpi_stencil stencil;
-        if (alpi_lattice_pass(s.texels.pixels[t]) != 1 ||
+        if (alpi_lattice_level(s.texels.pixels[t]) != 1 ||
             !alpi_lattice_stencil(&s.lattice, t, &stencil) || stencil.count != 4) {
             continue;
         }
