@@ -90,18 +90,13 @@ static alp_result run(alpi_occlusion_state *state)
 alp_result alpi_occlusion_rounds(const alpi_occlusion_task *task, alpi_occlusion_report *report)
 {
     alp_context *context = task->setup->context;
-    alpi_scratch own = {0};
     alpi_occlusion_state state = {.task = task,
                                   .report = report,
                                   .clock = alpi_occlusion_clock_start(task),
-                                  .scratch = task->scratch != NULL ? task->scratch : &own};
+                                  .scratch = task->scratch};
     *report = (alpi_occlusion_report){.relative = (double)NAN, .p99 = (double)NAN};
-    if (task->scratch == NULL) {
-        ALP_TRY(alpi_scratch_create(context, task->receivers->count, task->setup->bent, &own));
-    }
     const alp_result result = run(&state);
     alpi_occlusion_held_out_destroy(&state.held_out);
-    alpi_scratch_destroy(&own);
     alpi_chart_deal_close(&state.deal);
     alpi_release(context, state.list);
     return result;

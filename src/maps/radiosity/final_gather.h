@@ -9,9 +9,25 @@
 #ifndef ALPI_MAPS_FINAL_GATHER_H
 #define ALPI_MAPS_FINAL_GATHER_H
 
-#include "maps/radiosity/held_out.h"
 #include "maps/texels/lattice.h"
 #include "transport/gather/gather.h"
+
+enum { ALPI_HELD_OUT = 1024 };
+
+/// Held-out texels: interpolated, and also traced by independent rays. Their differences measure
+/// the error of interpolation, which no repetition of the same rays would reveal. The first of
+/// several maps of the same light chooses them, evenly and at random among those that it
+/// interpolates. Every map traces them.
+typedef struct alpi_held_out {
+    uint32_t count; // 0: none yet
+    uint32_t texels[ALPI_HELD_OUT];
+    alpi_reference_value values[ALPI_HELD_OUT]; // by the independent rays of the last map
+} alpi_held_out;
+
+/// Mean square error of texels by channel, compared with independent values y of known variance:
+/// E[(x − y)²] − Var y = E[(x − truth)²], at least 0.
+void alpi_held_out_error(const uint32_t *texels, const alpi_reference_value *found, uint32_t count,
+                         const alpi_reference_value *values, float variance[3]);
 
 typedef struct alpi_final_gather_options {
     const alpi_gather_job *gather; // list and count are ignored; its gatherer measures its error
@@ -37,7 +53,7 @@ typedef struct alpi_final_gather_report {
 /// of the order.
 ///
 /// The variance of a traced texel is pooled with its neighbours. If replicates are joined, check
-/// texels (variance_factor.h) correct it. The variance of interpolated texels is their mean square
+/// texels (variance_factor.c) correct it. The variance of interpolated texels is their mean square
 /// difference to independent rays from held-out texels, less the variance of those rays. So it
 /// contains the error of interpolation. It is 0 if an earlier map chose the held-out texels: the
 /// caller then compares the mean of all maps with them.
