@@ -14,7 +14,6 @@ alpi_radiosity_options alpi_radiosity_options_default(void)
 {
     return (alpi_radiosity_options){.bounces = UINT32_MAX,
                                     .tolerance = alpi_radiosity_tolerance(UINT32_MAX),
-                                    .patch_rule = {.spacing = 4},
                                     .direct_samples = 16,
                                     .kept_limit = 1ull << 30};
 }
@@ -82,8 +81,8 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
     *radiosity = (alpi_radiosity){.options = *options};
     alpi_solver s = {.r = radiosity};
     s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
-    ALP_TRY(alpi_patches_create(lattice, atlas, order, count, &options->patch_rule,
-                                &radiosity->patches));
+    ALP_TRY(
+        alpi_patches_create(lattice, atlas, order, count, options->proximity, &radiosity->patches));
     alp_result result = solve(&s, order, count);
     alpi_kept_rays_destroy(&s.kept);
     alpi_acceleration_destroy(options->context, &s.acceleration);
