@@ -9,20 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    TEXELS_PER_RANGE = 512,
-    TEXELS_PER_TICK = 1 << 16,
-    STRATA = 16,
-    NEAR_SAMPLES = 16,
-    TOGETHER = 16,
-    OCTAVE_LIMIT = 64
-};
-
-// Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
-static const double NEAR_DISTANCE = 2.5;
-// Share of the short rays that hit if a surface is within a texel.
-static const float TOUCHING = 0.22f;
-static const uint64_t NEAR_SEED = 0x6e656172;
+enum { TEXELS_PER_RANGE = 512, TEXELS_PER_TICK = 1 << 16, STRATA = 16, TOGETHER = 16 };
 
 typedef struct validity_job {
     const alpi_occlusion_setup *setup;
@@ -32,23 +19,8 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
-    uint8_t *measured; // [texels] 1 + alpi_proximity if coarse, else 0; the scratch's marks
-    uint16_t *inside;  // [texels] bit i: stratum i is inside other geometry; the scratch's
+    uint16_t *inside; // [texels] bit i: stratum i is inside other geometry; the scratch's
 } validity_job;
-
-// --- proximity -----------------------------------------------------------------------------------
-
-static bool is_coarse(const alpi_texels *t, uint32_t texel)
-{
-    return alpi_lattice_is_coarse(t->pixels[texel]);
-}
-
-/// The octave of a texel's side. Rays from texels of one octave are equally long.
-static int find_octave(const alpi_texels *t, uint32_t texel)
-{
-    const int octave = ilogbf(alpi_texels_side(t, texel));
-    return octave < -OCTAVE_LIMIT ? -OCTAVE_LIMIT : octave > OCTAVE_LIMIT ? OCTAVE_LIMIT : octave;
-}
 
 /// Reports from a serial loop over the order, once in a while. @return ALP_OK; CANCELLED
 static alp_result tick(const validity_job *job, uint32_t i)
@@ -58,108 +30,7 @@ static alp_result tick(const validity_job *job, uint32_t i)
                : ALP_OK;
 }
 
-/// Lists the coarse texels of an octave.
-static alp_result list_octave(const validity_job *job, int octave, uint32_t *list, uint32_t *count)
-{
-    *count = 0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (is_coarse(job->texels, t) && find_octave(job->texels, t) == octave) {
-            list[(*count)++] = t;
-        }
-        ALP_TRY(tick(job, i));
-    }
-    return ALP_OK;
-}
-
-/// Occlusion over a short distance, in mean sides of the listed texels. It takes no options of the
-/// bake: the limit to which a map converges must depend neither on the seed nor on other maps.
-static alp_result make_short_setup(const validity_job *job, const uint32_t *list, uint32_t count,
-                                   alpi_occlusion_setup *setup)
-{
-    alp_occlusion_options o = alp_occlusion_options_default();
-    double area = 0.0, coverage = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        area += (double)job->texels->areas[list[i]];
-        coverage += (double)job->texels->coverages[list[i]];
-    }
-    o.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
-    o.falloff = ALP_FALLOFF_NONE;
-    o.samples = NEAR_SAMPLES;
-    o.seed = NEAR_SEED;
-    return alpi_occlusion_prepare(job->setup->scene, job->setup->tracer, &o, setup);
-}
-
-/// A texel is as near as the nearest of the coarse texels around it in its chart; without any it
-/// touches.
-static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const validity_job *job = user;
-    const alpi_texels *t = job->texels;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t texel = job->order[i];
-        const uint32_t p[2] = {t->pixels[texel][0], t->pixels[texel][1]};
-        uint8_t nearest = 0;
-        for (uint32_t y = p[1] & ~1u; y <= p[1] + 1u; y += 2) {
-            for (uint32_t x = p[0] & ~1u; x <= p[0] + 1u; x += 2) {
-                const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], x, y);
-                if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
-                    job->measured[n] > nearest) {
-                    nearest = job->measured[n];
-                }
-            }
-        }
-        job->out->proximity[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
-    }
-    return ALP_OK;
-}
-
-/// Measures the proximity of listed texels, by short rays.
-static alp_result measure_listed(validity_job *job, const uint32_t *list, uint32_t count,
-                                 const alpi_task_progress *progress, alpi_occlusion_sums *sums)
-{
-    alpi_occlusion_setup setup;
-    ALP_TRY(make_short_setup(job, list, count, &setup));
-    alp_result result = alpi_occlusion_add(&setup, job->receivers, list, count, 0, NEAR_SAMPLES,
-                                           NEAR_SAMPLES, progress, sums);
-    for (uint32_t i = 0; i < count; i++) {
-        const float closed = 1.0f - alpi_occlusion_value(sums, list[i]);
-        job->measured[list[i]] = closed > TOUCHING ? 3 : closed > 0.0f ? 2 : 1;
-    }
-    job->out->rays += (uint64_t)count * NEAR_SAMPLES;
-    alpi_occlusion_release(&setup);
-    return result;
-}
-
-/// Measures the coarse texels, a quarter of all, then spreads their proximity.
-static alp_result find_proximity(validity_job *job, const alpi_task_progress *progress)
-{
-    alp_context *context = job->setup->context;
-    alpi_occlusion_sums *sums = &job->out->scratch->sums;
-    bool octaves[2 * OCTAVE_LIMIT + 1] = {false};
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (is_coarse(job->texels, t)) {
-            octaves[OCTAVE_LIMIT + find_octave(job->texels, t)] = true;
-        }
-        ALP_TRY(tick(job, i));
-    }
-    uint32_t *list = ALPI_NEW(context, uint32_t, job->order_count);
-    alp_result result = list != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
-    for (int k = -OCTAVE_LIMIT; k <= OCTAVE_LIMIT && result == ALP_OK; k++) {
-        uint32_t count = 0;
-        result = octaves[OCTAVE_LIMIT + k] ? list_octave(job, k, list, &count) : ALP_OK;
-        result = result == ALP_OK && count > 0 ? measure_listed(job, list, count, progress, sums)
-                                               : result;
-    }
-    alpi_release(context, list);
-    ALP_TRY(result);
-    return alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, spread_range, job,
-                             progress);
-}
-
-// --- texels --------------------------------------------------------------------------------------
+// --- lifts ---------------------------------------------------------------------------------------
 
 /// Middles of `count` strata.
 static void find_middles(const uint8_t *strata, uint32_t count, float (*square)[2])
@@ -426,6 +297,20 @@ static alp_result store(validity_job *job)
     return ALP_OK;
 }
 
+static alp_result find_proximity(validity_job *job, const alpi_task_progress *progress)
+{
+    alpi_proximity_job near = {.setup = job->setup,
+                               .receivers = job->receivers,
+                               .lattice = job->lattice,
+                               .order = job->order,
+                               .count = job->order_count,
+                               .scratch = job->out->scratch,
+                               .proximity = job->out->proximity};
+    const alp_result result = alpi_find_proximity(&near, progress);
+    job->out->rays += near.rays;
+    return result;
+}
+
 static alp_result run(validity_job *job, const alpi_task_progress *progress)
 {
     alp_context *context = job->setup->context;
@@ -463,7 +348,6 @@ alp_result alpi_validity_find(const alpi_occlusion_setup *setup, const alpi_rece
                         .lattice = lattice,
                         .order = order,
                         .order_count = order_count,
-                        .measured = validity->scratch->marks,
                         .inside = validity->scratch->inside,
                         .out = validity};
     return run(&job, progress);

@@ -3,16 +3,8 @@
 #ifndef ALPI_MAPS_VALIDITY_H
 #define ALPI_MAPS_VALIDITY_H
 
-#include "maps/texels/lattice.h"
+#include "maps/texels/proximity.h"
 #include "maps/texels/scratch.h"
-#include "transport/occlusion/occlusion.h"
-
-/// How far another surface is from a texel.
-typedef enum alpi_proximity {
-    ALPI_FAR = 0,
-    ALPI_NEAR,    // within some texels: interpolate with care
-    ALPI_TOUCHING // within about one: light may change inside a texel
-} alpi_proximity;
 
 /// Surroundings of texels, found by short rays.
 typedef struct alpi_validity {
