@@ -135,6 +135,8 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
     }
 }
 
+// --- texels inside solids ------------------------------------------------------------------------
+
 /// Which strata of a texel lie inside other geometry. Strata that the middle sees are outside if it
 /// is; the others are tested.
 static uint16_t find_inside(const validity_job *job, uint32_t texel,
@@ -296,6 +298,8 @@ static alp_result store(validity_job *job)
     }
     return ALP_OK;
 }
+
+// --- all texels ----------------------------------------------------------------------------------
 
 static alp_result find_proximity(validity_job *job, const alpi_task_progress *progress)
 {
