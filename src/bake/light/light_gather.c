@@ -139,11 +139,10 @@ alp_result alpi_light_gather(alpi_light_rounds *r, uint32_t rays, const alpi_lig
         .gather = &tracing.gather,
         .proximity = job->gathering.validity.proximity,
         .adaptive = all && light->settings.adaptive,
-        .straight = true,
         .held_out = all && (r->rays.per_texel == 0 || held_out->count > 0) ? held_out : NULL,
         .independent = &tracing.independent,
         .joined = r->fixed == NULL,
-        .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : light->lattice->values,
+        .means = alpi_bake_wants_occlusion(&job->options) ? NULL : light->lattice->values,
     };
     options.order = alpi_light_tracing_texels(r, &options.count);
     if (!all) {

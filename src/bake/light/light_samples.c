@@ -128,21 +128,6 @@ double alpi_light_typical_samples(const alpi_light_rounds *r)
                               r->light->count, r->direct.most);
 }
 
-/// Texels of the 3 × 3 around one, itself among them. @return how many
-static int find_around(const alpi_lattice *l, uint32_t texel, uint32_t around[9])
-{
-    const uint16_t *p = l->texels->pixels[texel];
-    int count = 0;
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(l, l->texels->pages[texel], (int64_t)p[0] + k % 3 - 1,
-                                              (int64_t)p[1] + k / 3 - 1);
-        if (n != ALPI_NONE) {
-            around[count++] = n;
-        }
-    }
-    return count;
-}
-
 /// Lists the noisy texels and their neighbours. The few samples of one texel may miss a shadow's
 /// edge that those of a neighbour found.
 static void list_noisy(share_job *job)
@@ -158,10 +143,10 @@ static void list_noisy(share_job *job)
         job->marks[texel] = noisy && (among == NULL || among[texel] != 0) ? NOISY_ITSELF : 0;
     }
     for (uint32_t i = 0; i < t->count; i++) {
-        uint32_t around[9];
+        uint32_t around[ALPI_AROUND_LIMIT];
         const bool noisy = (job->marks[t->order[i]] & NOISY_ITSELF) != 0;
-        const int count = noisy ? find_around(t->lattice, t->order[i], around) : 0;
-        for (int k = 0; k < count; k++) {
+        const uint32_t count = noisy ? alpi_lattice_around(t->lattice, t->order[i], around) : 0;
+        for (uint32_t k = 0; k < count; k++) {
             job->marks[around[k]] |= BESIDE_NOISY;
         }
     }
@@ -187,11 +172,11 @@ static texel_need find_need(const share_job *job, uint32_t texel)
 {
     const alpi_light_direct *d = &job->rounds->direct;
     const alpi_reference_value *values = job->rounds->solution->direct;
-    uint32_t around[9];
-    const int count = find_around(job->rounds->light->lattice, texel, around);
+    uint32_t around[ALPI_AROUND_LIMIT];
+    const uint32_t count = alpi_lattice_around(job->rounds->light->lattice, texel, around);
     const double had = d->counts[texel];
     double sum = 0.0, known = 0.0;
-    for (int k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count; k++) {
         const double v = mean_variance(&values[around[k]]), by = d->counts[around[k]];
         if (by > 0.0) {
             sum += by == had ? v : v * pow(by / had, 2.0 * d->power);

@@ -15,7 +15,7 @@ static alp_result solve_on_map(alpi_light_bake *light, const alpi_light_gatherer
     options.scene = job->scene;
     options.tracer = light->tracer;
     options.lighting = light->sources.gathered;
-    options.patch_rule.proximity = job->gathering.validity.proximity;
+    options.proximity = job->gathering.validity.proximity;
     options.direct = light->sources.sampled;
     options.direct_scene = g->counted ? &g->dark : NULL;
     options.counted = g->counted ? &g->texels : NULL;
