@@ -32,7 +32,7 @@ typedef struct plan {
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
     // for one note a file each
-    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced;
+    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
 } plan;
 
 // --- sizes --------------------------------------------------------------------------------------
@@ -269,7 +269,8 @@ static alp_result plan_node(plan *p, uint32_t node)
     snprintf(owner, sizeof owner, "node %u", node);
     size_t mesh;
     ALP_TRY(alpi_gltf_index(document, object, "mesh", "meshes", owner, &mesh));
-    if (mesh == ALPI_GLTF_NONE) {
+    if (mesh == ALPI_GLTF_NONE || p->reader->hidden[node]) {
+        p->hidden += mesh != ALPI_GLTF_NONE;
         return ALP_OK;
     }
     json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
@@ -558,6 +559,13 @@ static void tell_oddities(const plan *p)
         alpi_note(context, "no-material", path,
                   "primitives without a material, read as a grey of albedo 0.5: %u",
                   p->without_material);
+    }
+    if (p->hidden > 0) {
+        alpi_note(
+            context, "hidden", path,
+            "%u nodes with meshes are hidden (KHR_node_visibility): they neither cast shadows "
+            "nor get a map, and stay in the file",
+            p->hidden);
     }
     if (p->skinned > 0) {
         alpi_note(context, "skin", path, "%u skinned nodes are read in the pose of their joints",

@@ -17,6 +17,7 @@ typedef struct alpi_gltf_reader {
     uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
     uint32_t order_count;
     bool *placed;        // [node_count] whether a node is in `order`
+    bool *hidden;        // [node_count] whether it shows neither mesh nor light
     bool *material_used; // [scene.material_count]
     uint64_t posing;     // work of skins and morph targets so far
     uint64_t keys;       // numbers of animations so far

@@ -139,8 +139,7 @@ static alp_result assemble_gltf(const alpi_gltf_document *document, const alpi_b
                                 alpi_bytes *gltf)
 {
     if (!document->is_glb) {
-        alpi_bytes_add(gltf, document->file_bytes,
-                       (size_t)(document->text - (const char *)document->file_bytes));
+        alpi_bytes_add(gltf, document->file_bytes, document->text_begin);
     } else if (document->more_chunks_size > 0) {
         alpi_note(document->context, "chunks", document->path,
                   "chunks after BIN are left out: a .gltf has no place for them");
@@ -215,14 +214,11 @@ static alp_result add_light_files(writing *w)
     return ALP_OK;
 }
 
-/// What an earlier bake left goes. Bytes are cut where they are written anew anyway; a file beside
-/// a .gltf is dropped as a whole or stays.
+/// What nothing reads any more goes. Bytes are cut where they are written anew anyway; a file
+/// beside a .gltf is dropped as a whole or stays.
 static alp_result tidy(writing *w, alpi_gltf_home home)
 {
     const alpi_gltf_document *document = w->document;
-    if (!alpi_gltf_was_baked(document)) {
-        return ALP_OK;
-    }
     ALPI_TRY_NEW(document->context, w->buffers_gone, document->buffer_count);
     const bool is_bin = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED ||
                         (home == ALPI_HOME_FILE && first_is_bin(document));
