@@ -188,6 +188,9 @@ static const alpi_finding_words words[] = {
      "export the document with its scene"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "not-mesh", "those shapes are missing",
      "turn splines and solids into meshes before export"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "missing",
+     "a mesh, lamp, colour or texture that was meant to be there is missing",
+     "export the file anew, or correct the number"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "trailing-bytes",
      "nothing; but the file may be damaged, or hide data", "export the file anew"},
 };

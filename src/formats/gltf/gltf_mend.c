@@ -122,7 +122,9 @@ static size_t filter_list(mending *m, const place *list, const list_rule *rule, 
         json_t *value = rule->member != NULL ? json_object_get(element, rule->member) : element;
         const bool found = m->edits != NULL && alpi_json_next(&cursor);
         if (is_missing(m, value, rule->kind)) {
-            tell(m, list, rule->member != NULL ? rule->member : rule->name, value, rule->kind);
+            char name[64];
+            snprintf(name, sizeof name, "one of its %s", rule->name);
+            tell(m, list, name, value, rule->kind);
             continue;
         }
         alpi_bytes_print(text, "%s", kept++ > 0 ? "," : "");

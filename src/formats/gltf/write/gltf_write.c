@@ -179,7 +179,7 @@ static bool first_is_bin(const alpi_gltf_document *document)
 static alp_result add_side_files(writing *w)
 {
     const alpi_gltf_document *document = w->document;
-    if (first_is_bin(document)) {
+    if (first_is_bin(document) && !w->buffers_gone[0]) {
         ALP_TRY(add_side_file(w, w->names.bin, w->bin.bytes, w->bin.size));
     }
     if (w->patcher.data.size > 0) {
@@ -220,11 +220,11 @@ static alp_result tidy(writing *w, alpi_gltf_home home)
 {
     const alpi_gltf_document *document = w->document;
     ALPI_TRY_NEW(document->context, w->buffers_gone, document->buffer_count);
-    const bool is_bin = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED ||
-                        (home == ALPI_HOME_FILE && first_is_bin(document));
+    const bool is_chunk = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED;
+    const bool is_bin = is_chunk || (home == ALPI_HOME_FILE && first_is_bin(document));
     const bool has_file = home == ALPI_HOME_FILE && w->patcher.data.size > 0;
     const bool keeps_buffers = home != ALPI_HOME_MERGED; // else they are others now
-    const alpi_gltf_leftovers from = {.first_stays = is_bin || w->to_glb,
+    const alpi_gltf_leftovers from = {.first_stays = is_chunk || w->to_glb,
                                       .bin = is_bin ? &w->bin : NULL,
                                       .data = has_file ? &w->patcher.data : NULL,
                                       .document = document,

@@ -41,9 +41,11 @@ TEST_WITH_CONTEXT(missing_elements_cost_their_reference, 1)
         {"'nodes':[{'mesh':0,'skin':2}]," MESH, "skin is 2", "skin", 1},
         {"'nodes':[{'mesh':0,'skin':0}],'skins':[{'joints':[9]}]," MESH, "a joint of its skin",
          "\"skin\"", 1},
-        {"'nodes':[{'mesh':0,'children':[1,9,8]},{'mesh':0}]," MESH, "children is 9", "9,8", 2},
-        {"'nodes':[{'mesh':0,'children':[9]}]," MESH, "children is 9", "children", 1},
-        {"'nodes':[{'mesh':0}],'scenes':[{'nodes':[0,3]}]," MESH, "nodes is 3", "0,3", 1},
+        {"'nodes':[{'mesh':0,'children':[1,9,8]},{'mesh':0}]," MESH, "one of its children is 9",
+         "9,8", 2},
+        {"'nodes':[{'mesh':0,'children':[9]}]," MESH, "one of its children is 9", "children", 1},
+        {"'nodes':[{'mesh':0}],'scenes':[{'nodes':[0,3]}]," MESH, "one of its nodes is 3", "0,3",
+         1},
         {"'nodes':[{'mesh':0,'extensions':{'KHR_lights_punctual':{'light':1}}}]," MESH,
          "light is 1", "light", 1},
         {"'nodes':[{'mesh':0}]," MESH_OF("'material':3"), "material is 3", "\"material\"", 1},
@@ -61,7 +63,7 @@ TEST_WITH_CONTEXT(missing_elements_cost_their_reference, 1)
         {"'nodes':[{'mesh':0}],'materials':[{}]," MESH_OF(
              "'extensions':{'KHR_materials_variants':{'mappings':[{'material':0,'variants':[0]},"
              "{'material':5,'variants':[1]}]}}"),
-         "material is 5", "\"material\":5", 1},
+         "one of its mappings is 5", "\"material\":5", 1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alp_scene *scene = read(context, cases[i].members);

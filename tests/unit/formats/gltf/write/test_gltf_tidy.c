@@ -63,6 +63,23 @@ TEST(what_a_bake_made_useless_goes)
     quad_close(&bake);
 }
 
+/// The BIN chunk of a .glb whose arrays are all written anew: no empty buffer, and no file of it.
+TEST(an_empty_buffer_goes)
+{
+    static const char *const rest =
+        SCENE "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,"
+              "\"TEXCOORD_0\":2,\"JOINTS_0\":3,\"WEIGHTS_0\":4,\"_MINE\":5,\"_MATRIX\":9,"
+              "\"COLOR_0\":10},\"indices\":6,\"targets\":[{\"POSITION\":7}],\"material\":0},"
+              "{\"attributes\":{\"POSITION\":0},\"indices\":8,\"mode\":5,\"material\":0}]}]";
+    quad_bake bake = quad_open(quad_write_glb(ASSET, rest), 1);
+    quad_part_triangles(&bake);
+    quad_write(&bake, ".gltf");
+    assert_int_equal(alpi_gltf_count(quad_new(&bake), "buffers"), 1);
+    assert_true(quad_number(&bake, "buffers/0/byteLength") > 0);
+    assert_int_equal(count_unread(&bake, ALPI_GLTF_ACCESSORS, "accessors"), 0);
+    quad_close(&bake);
+}
+
 /// Also where images of materials are replaced: base colours under light as emission.
 TEST(textures_of_replaced_colours_go)
 {
