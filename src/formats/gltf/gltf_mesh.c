@@ -145,21 +145,6 @@ static alp_result find_material(plan *p, const part *from, const char *owner, al
     return ALP_OK;
 }
 
-static char *surface_name(const plan *p, const alpi_surface *surface)
-{
-    alp_context *context = p->reader->context;
-    json_t *node = alpi_gltf_item(p->reader->document, "nodes", surface->node);
-    json_t *mesh = alpi_gltf_item(p->reader->document, "meshes", surface->mesh);
-    const char *node_name = alpi_gltf_text(node, "name"), *mesh_name = alpi_gltf_text(mesh, "name");
-    if (node_name != NULL && node_name[0] != '\0') {
-        return alpi_gltf_copy_name(context, node);
-    }
-    if (mesh_name != NULL && mesh_name[0] != '\0') {
-        return alpi_gltf_copy_name(context, mesh);
-    }
-    return alpi_format(context, "node %u", surface->node);
-}
-
 static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
 {
     alp_scene *scene = p->reader->scene;
@@ -172,7 +157,7 @@ static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
     result = alpi_grow(context, &surfaces, &p->surface_capacity, count + 1, sizeof(alpi_surface));
     scene->surfaces = surfaces;
     ALP_TRY(result);
-    surface->name = surface_name(p, surface);
+    surface->name = alpi_gltf_surface_name(p->reader, surface);
     if (surface->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }

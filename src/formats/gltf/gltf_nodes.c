@@ -329,3 +329,19 @@ alp_result alpi_gltf_read_nodes(alpi_gltf_reader *reader)
     alpi_release(reader->context, w.stack.nodes);
     return result;
 }
+
+// --- names ---------------------------------------------------------------------------------------
+
+char *alpi_gltf_surface_name(const alpi_gltf_reader *reader, const alpi_surface *surface)
+{
+    json_t *node = alpi_gltf_item(reader->document, "nodes", surface->node);
+    json_t *mesh = alpi_gltf_item(reader->document, "meshes", surface->mesh);
+    const char *node_name = alpi_gltf_text(node, "name"), *mesh_name = alpi_gltf_text(mesh, "name");
+    if (node_name != NULL && node_name[0] != '\0') {
+        return alpi_gltf_copy_name(reader->context, node);
+    }
+    if (mesh_name != NULL && mesh_name[0] != '\0') {
+        return alpi_gltf_copy_name(reader->context, mesh);
+    }
+    return alpi_format(reader->context, "node %u", surface->node);
+}

@@ -284,7 +284,11 @@ static alp_result note_open(walk *w, const alpi_json_cursor *at)
     const char *value = w->text + at->value.begin;
     size_t index;
     if (value[0] == '"') {
+        alpi_gltf_kind kind;
+        alpi_json_span number;
         found->has_pointers |= may_point(w->text, at->value);
+        found->points_at_materials |=
+            find_pointed(w->text, at->value, &kind, &number) && kind == ALPI_GLTF_MATERIALS;
         return ALP_OK;
     }
     if (at->is_object && alpi_json_key_is(w->text, at->key, "texCoord")) {

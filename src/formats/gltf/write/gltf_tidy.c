@@ -264,6 +264,12 @@ static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
     }
     ALP_TRY(alpi_gltf_references_find(t->text, t->root, &t->references));
     ALP_TRY(find_read(t, from->document));
+    if (t->references.points_at_materials && from->copy_count > 0) {
+        alpi_warn(t->context, "copies", from->document->path,
+                  "an extension that is not known points at materials (\"/materials/0/...\"), of "
+                  "which this bake made %zu copies: it does not reach the copies",
+                  from->copy_count);
+    }
     for (int k = 0; k < KINDS && !t->references.has_pointers; k++) {
         const alpi_gltf_kind kind = order[k];
         if (k >= MARKED) {

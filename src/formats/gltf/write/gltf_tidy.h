@@ -14,6 +14,7 @@ typedef struct alpi_gltf_leftovers {
     bool *images_gone;                  // [image_count] of the document: those that go are noted
     bool *buffers_gone;                 // [buffer_count]
     size_t image_count, buffer_count;
+    size_t copy_count; // materials that this bake copied
 } alpi_gltf_leftovers;
 /// Removes from a written text what nothing reads any more: elements that bear the mark of a bake,
 /// and elements of the document that something read there.

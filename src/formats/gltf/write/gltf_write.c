@@ -228,6 +228,7 @@ static alp_result tidy(writing *w, alpi_gltf_home home)
                                       .bin = is_bin ? &w->bin : NULL,
                                       .data = has_file ? &w->patcher.data : NULL,
                                       .document = document,
+                                      .copy_count = w->patcher.copy_count,
                                       .images_gone = w->patcher.image_embedded,
                                       .buffers_gone = w->buffers_gone,
                                       .image_count = alpi_gltf_count(document, "images"),

@@ -180,6 +180,28 @@ TEST(animations_of_materials_in_place_stay)
     quad_close(&bake);
 }
 
+/// Pointers of an extension that nobody here knows stay as they are, which is told.
+TEST(unknown_pointers_at_copies_are_told)
+{
+    static const char rest_of[] =
+        "\"extensionsUsed\":[\"EXT_none\"],\"extensions\":{\"EXT_none\":{\"moves\":"
+        "\"/materials/0/alphaCutoff\"}},\"materials\":[{}],\"scenes\":[{\"nodes\":[0,1]}],"
+        "\"nodes\":[{\"mesh\":0},{\"mesh\":1}],\"meshes\":[{\"primitives\":[" ATTRIBUTES
+        "0}]},{\"primitives\":[" ATTRIBUTES "0}]}]";
+    for (int i = 0; i < 2; i++) {
+        quad_bake bake = quad_open(quad_write_glb(ASSET, rest_of), 1);
+        if (i == 0) { // else the one material is edited where it stands
+            bake.pages[2] = bake.pages[3] = ALPI_NONE;
+        }
+        test_log_clear();
+        quad_write(&bake, ".glb");
+        assert_int_equal(test_log_has("copies"), i == 0);
+        assert_string_equal(quad_text(&bake, "extensions/EXT_none/moves"),
+                            "\"/materials/0/alphaCutoff\"");
+        quad_close(&bake);
+    }
+}
+
 // --- unlit ---------------------------------------------------------------------------------------
 
 TEST(occlusion_of_unlit_materials_is_told)
