@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
+#include "bake_defaults.h"
 #include "bake_options.h"
 #include "commands/commands.h"
 #include "fields.h"
@@ -11,6 +12,8 @@
 #include "report_page.h"
 #include "session.h"
 #include "work.h"
+
+#include <stdlib.h>
 
 static int write_json(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                       const alp_diagnosis *diagnosis, const command_line *a)
@@ -44,8 +47,13 @@ static int report(session *s, const alp_lightmap *lightmap, const alp_bake_repor
     return code;
 }
 
-static int bake(session *s, const command_line *a, alp_bake_options *o)
+/// @param note of a choice that was made, or NULL
+static int bake(session *s, const command_line *a, alp_bake_options *o, const char *note)
 {
+    if (note != NULL) {
+        messages_log(&s->messages,
+                     &(alp_log_message){ALP_LOG_NOTE, "lightmap-as", o->output, note});
+    }
     alp_lightmap *lightmap = NULL;
     alp_bake_report told;
     o->progress = session_progress;
@@ -95,7 +103,8 @@ static int check_report(const command_line *a, const char *output)
     return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
-int command_bake(const command_line *a)
+/// @param note of a choice that was made, or NULL
+static int run(const command_line *a, const char *note)
 {
     alp_bake_options options;
     lamp_list lamps;
@@ -114,9 +123,19 @@ int command_bake(const command_line *a)
     alp_image *sky;
     code = lighting_open(&s, a, &options.light.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
-        code = bake(&s, a, &options);
+        code = bake(&s, a, &options, note);
     }
     alp_image_destroy(sky);
     session_close(&s);
+    return code;
+}
+
+int command_bake(const command_line *a)
+{
+    command_line filled = *a;
+    const char *note = NULL;
+    char *output = bake_defaults_fill(&filled, &note);
+    const int code = run(&filled, note);
+    free(output);
     return code;
 }

@@ -330,24 +330,27 @@ static json_t *make_cameras(const alp_scene *scene, const alp_scene_info *info)
     return list;
 }
 
-static int print_json(const session *s, const alp_scene_info *info, const default_work *work,
+/// @param a names the file, or none: standard output
+static int write_json(const session *s, const command_line *a, const default_work *work,
                       const alp_diagnosis *diagnosis, json_t *pictures)
 {
+    const alp_scene_info info = alp_scene_get_info(s->scene);
     json_t *document = json_pack(
         "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version",
-        alp_version(), "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao),
-        "light", work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
-        "lights", make_lights(s->scene, info), "cameras", make_cameras(s->scene, info),
-        "animations", make_animations(s->scene, info->animations), "uv_sets",
+        alp_version(), "scene", make_scene(s->scene, &info), "work", "ao", work_json(&work->ao),
+        "light", work_json(&work->light), "surfaces", make_surfaces(s->scene, info.surfaces),
+        "lights", make_lights(s->scene, &info), "cameras", make_cameras(s->scene, &info),
+        "animations", make_animations(s->scene, info.animations), "uv_sets",
         findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis), "pictures",
         pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }
-    json_dumpf(document, stdout, JSON_STYLE); // main checks the stream
-    putchar('\n');
+    const char *path = a->values[OPTION_JSON].text;
+    const int code =
+        output_write_json(document, path != NULL ? path : "-", a->values[OPTION_FORCE].given);
     json_decref(document);
-    return EXIT_DONE;
+    return code;
 }
 
 static void print_text(const session *s, const char *path, const alp_scene_info *info,
@@ -373,7 +376,7 @@ static int tell(session *s, const command_line *a, const default_work *work,
     const int drawn = pictures_write(s, diagnosis, a, &pictures);
     int code = drawn;
     if (is_json && drawn == EXIT_DONE) {
-        code = print_json(s, &info, work, diagnosis, pictures);
+        code = write_json(s, a, work, diagnosis, pictures);
     } else if (!is_json) {
         print_text(s, a->operands[0], &info, work, diagnosis);
         for (size_t i = 0; drawn == EXIT_DONE && i < json_array_size(pictures); i++) {
@@ -436,6 +439,19 @@ static int show_probe_file(const command_line *a)
     return code;
 }
 
+/// --json FILE must not be SCENE, and is refused before the work.
+static int check_json(const command_line *a)
+{
+    const char *path = a->values[OPTION_JSON].text;
+    if (path == NULL) {
+        return EXIT_DONE;
+    }
+    if (output_is_same(path, a->operands[0])) {
+        return usage_error(COMMAND_INFO, "--json %s: SCENE has the same name; give another", path);
+    }
+    return output_check_json(path, a->values[OPTION_FORCE].given);
+}
+
 int command_info(const command_line *a)
 {
     session s;
@@ -450,7 +466,11 @@ int command_info(const command_line *a)
     }
     default_work work = {{0}, {0}};
     alp_diagnosis *diagnosis = NULL;
-    int code = session_open(&s, a);
+    int code = check_json(a);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    code = session_open(&s, a);
     s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);

@@ -5,6 +5,7 @@
 static const option rows[] = {
     {.id = OPTION_QUALITY,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_STOP,
      .kind = KIND_CHOICE,
      .name = "--quality",
