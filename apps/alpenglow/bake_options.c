@@ -252,20 +252,13 @@ static int read_maps(const option_value *values, alp_bake_options *o)
 static int read_sampling(const command_line *a, alp_bake_options *o)
 {
     enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
-    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
     enum { MOST_SAMPLES = 65536 };
     const option_value *values = a->values;
     const option_value *adaptive = &values[OPTION_ADAPTIVE];
     alp_sampling_options *s = &o->sampling;
-    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
-        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
-                           values[OPTION_QUALITY].text,
-                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
-    }
-    if (values[OPTION_QUALITY].given) {
-        s->error = quality_errors[values[OPTION_QUALITY].choice];
-    } else if (values[OPTION_ERROR].given) {
-        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    const int code = error_read(a, &s->error);
+    if (code != EXIT_DONE) {
+        return code;
     }
     if (s->error > 0.0f && o->maps == ALP_MAP_LIGHT &&
         (values[OPTION_SAMPLES].given || o->light.gather != ALP_GATHER_RAYS ||

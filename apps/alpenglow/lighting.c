@@ -176,6 +176,19 @@ int lighting_open(session *s, const command_line *a, alp_lighting_options *optio
     return load_sky(s, a, options, sky);
 }
 
+int error_read(const command_line *a, float *error)
+{
+    static const float of_quality[] = {0.04f, 0.01f, 0.004f};
+    const option_value *quality = &a->values[OPTION_QUALITY], *wanted = &a->values[OPTION_ERROR];
+    *error = quality->given  ? of_quality[quality->choice]
+             : wanted->given ? (float)(wanted->real / 100.0)
+                             : 0.0f;
+    return quality->given && wanted->given
+               ? usage_error(a->command, "--quality %s is --error %g; give one of them",
+                             quality->text, 100.0 * (double)*error)
+               : EXIT_DONE;
+}
+
 uint32_t lighting_bounces(const command_line *a)
 {
     const option_value *value = &a->values[OPTION_BOUNCES];

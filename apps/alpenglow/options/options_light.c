@@ -40,6 +40,16 @@ static const option rows[] = {
              "hemicube: radiosity by the five faces of half a cube around each texel, "
              "without an estimate of the error.\n"
              "paths: the reference path tracer, unbiased and many times slower."},
+    {.id = OPTION_GATHER,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--gather",
+     .value = "rays|hemicube|paths",
+     .choices = "rays|hemicube|paths",
+     .initial = "rays",
+     .help = "Method of gathering bounced light for the map that --with lightmap bakes, as in "
+             "bake."},
     {.id = OPTION_HEMICUBE,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,

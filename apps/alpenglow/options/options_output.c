@@ -118,8 +118,9 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--report",
      .value = "OUT.html",
-     .help = "Write a report as one HTML page: figures, warnings, pictures of the maps "
-             "and their errors, time of each stage, objects on the atlas. It loads "
+     .help = "Write a report as one HTML page: figures, a picture of the scene, warnings, "
+             "pictures of the maps and their errors, time of each stage, objects on the atlas. It "
+             "loads "
              "nothing and runs no script. It has the first 16 pages of an atlas."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
