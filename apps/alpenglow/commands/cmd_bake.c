@@ -14,6 +14,7 @@
 #include "work.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 static int write_json(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                       const alp_diagnosis *diagnosis, const command_line *a)
@@ -103,6 +104,22 @@ static int check_report(const command_line *a, const char *output)
     return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
+/// Names SCENE as such where OUT would overwrite it. Other outputs that are there stop the bake
+/// too.
+static int check_own_input(const command_line *a, const char *output)
+{
+    char text[512];
+    if (output == NULL || a->values[OPTION_FORCE].given ||
+        !output_is_same(output, a->operands[0]) || access(output, F_OK) != 0) {
+        return EXIT_DONE;
+    }
+    snprintf(text, sizeof text,
+             "%.300s: is SCENE itself, and would be overwritten by the baked scene; name another "
+             "file, or force it (-f)",
+             output);
+    return failure(text);
+}
+
 /// @param note of a choice that was made, or NULL
 static int run(const command_line *a, const char *note)
 {
@@ -110,6 +127,7 @@ static int run(const command_line *a, const char *note)
     lamp_list lamps;
     int code = bake_options_read(a, &options, &lamps);
     code = code == EXIT_DONE ? probe_file_check(a) : code;
+    code = code == EXIT_DONE ? check_own_input(a, options.output) : code;
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
     }

@@ -12,8 +12,8 @@
 #include <ctype.h>
 #include <math.h>
 
-/// Number of lamps, of emissive surfaces, and of animations that text lists; JSON lists all.
-enum { LIGHTS_TOLD = 16, ANIMATIONS_TOLD = 16 };
+/// Rows of a table; JSON has all.
+enum { ROW_LIMIT = 20 };
 
 static bool is_far(const alp_scene_info *i)
 {
@@ -119,7 +119,7 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
     }
     printf("\n%10s  %7s  %-5s  %-9s  %s\n", "triangles", "uv sets", "sides", "normals",
            "surface (material)");
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && i < ROW_LIMIT; i++) {
         alp_surface_info s = alp_scene_get_surface(scene, i);
         printf("%10u  %7u  %-5s  %-9s  ", s.triangle_count, s.uv_sets,
                s.double_sided ? "two" : "one", s.normals_generated ? "generated" : "given");
@@ -127,6 +127,10 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
         printf(" (");
         print_clean(stdout, s.material[0] != '\0' ? s.material : "no material");
         printf(")%s\n", s.mirrored ? ", mirrored" : "");
+    }
+    if (count > ROW_LIMIT) {
+        printf("%10s  %u more surface%s; --json lists all\n", "and", count - ROW_LIMIT,
+               count - ROW_LIMIT == 1 ? "" : "s");
     }
 }
 
@@ -192,8 +196,8 @@ static void print_emissive(const alp_surface_info *s)
 /// Counts the lights that were not listed.
 static void print_rest(uint32_t count, const char *what)
 {
-    if (count > LIGHTS_TOLD) {
-        const uint32_t rest = count - LIGHTS_TOLD;
+    if (count > ROW_LIMIT) {
+        const uint32_t rest = count - ROW_LIMIT;
         printf("light      and %u more %s%s; --json lists all\n", rest, what, rest == 1 ? "" : "s");
     }
 }
@@ -205,12 +209,12 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     putchar('\n');
     for (uint32_t i = 0; i < info->surfaces; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
-        if (is_emissive(&s) && emissive++ < LIGHTS_TOLD) {
+        if (is_emissive(&s) && emissive++ < ROW_LIMIT) {
             print_emissive(&s);
         }
     }
     print_rest(emissive, "emissive surface");
-    for (uint32_t i = 0; i < info->lights && i < LIGHTS_TOLD; i++) {
+    for (uint32_t i = 0; i < info->lights && i < ROW_LIMIT; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
         print_lamp(info, &l, i);
     }
@@ -222,14 +226,14 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
 
 static void print_animations(const alp_scene *scene, uint32_t count)
 {
-    for (uint32_t i = 0; i < count && i < ANIMATIONS_TOLD; i++) {
+    for (uint32_t i = 0; i < count && i < ROW_LIMIT; i++) {
         const alp_animation_info a = alp_scene_get_animation(scene, i);
-        printf("animation  %u ", i);
+        printf("%sanimation  %u ", i == 0 ? "\n" : "", i);
         print_clean(stdout, a.name[0] != '\0' ? a.name : "(no name)");
         printf(", %g s, %u channel%s\n", a.seconds, a.channels, a.channels == 1 ? "" : "s");
     }
-    if (count > ANIMATIONS_TOLD) {
-        printf("animation  and %u more; --json lists all\n", count - ANIMATIONS_TOLD);
+    if (count > ROW_LIMIT) {
+        printf("animation  and %u more; --json lists all\n", count - ROW_LIMIT);
     }
 }
 
@@ -358,12 +362,12 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
 {
     print_scene(path, info);
     print_unit(s->scene, info);
-    print_animations(s->scene, info->animations);
     print_work(work, info->area);
+    findings_print(diagnosis);
+    print_animations(s->scene, info->animations);
     print_surfaces(s->scene, info->surfaces);
     findings_print_uv_sets(diagnosis);
     print_lights(s->scene, info);
-    findings_print(diagnosis);
 }
 
 /// The pictures first: with JSON, their names are in the one document.
