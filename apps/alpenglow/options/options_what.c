@@ -53,7 +53,8 @@ static const option rows[] = {
      .initial = "auto",
      .help = "Layout of the maps.\n"
              "auto: keep if the second UV set is valid, else charts.\n"
-             "keep: the scene's second UV set, inside [0, 1] and without overlaps.\n"
+             "keep: the scene's second UV set, inside [0, 1]. Overlaps on up to 1 % of its texels "
+             "cause a warning.\n"
              "charts: new charts.\n"
              "vertex: no map, but a value at each vertex, fitted for linear "
              "interpolation over the triangles. Warns of triangles that are too large "
