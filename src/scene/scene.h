@@ -33,6 +33,18 @@ typedef enum alpi_alpha_mode {
     ALPI_ALPHA_BLEND
 } alpi_alpha_mode;
 
+/// Gloss and relief. Light does not read them: they are carried from format to format.
+typedef struct alpi_shine {
+    float roughness;                // [0, 1], of glTF
+    alpi_texture roughness_texture; // channel G, linear
+    float index;                    // of refraction; 0 = not stated
+    bool has_specular;              // the file states the next two
+    float specular[3];              // linear
+    alpi_texture specular_texture;  // sRGB
+    alpi_texture bump_texture;      // heights, or normals of which the file does not say that
+    float bump_scale;
+} alpi_shine;
+
 typedef struct alpi_material {
     char *name;                      // "" where the file has none
     float base_color[4];             // linear, [0, 1]
@@ -51,6 +63,7 @@ typedef struct alpi_material {
     alpi_texture transmission_texture; // channel R, linear
     alpi_texture normal_texture;       // tangent space, linear; bakes do not read it
     float normal_scale;                // of its x and y
+    alpi_shine shine;
 } alpi_material;
 
 typedef struct alpi_surface {
@@ -97,7 +110,7 @@ typedef struct alpi_attachment {
 typedef enum alpi_attachment_kind {
     ALPI_ATTACHMENT_DOCUMENT, // the file as read (formats)
     ALPI_ATTACHMENT_COLLADA,  // the same of a COLLADA file (formats)
-    ALPI_ATTACHMENT_PICTURES, // paths of the images of an OBJ (formats)
+    ALPI_ATTACHMENT_OBJ,      // an OBJ with its libraries (formats)
     ALPI_ATTACHMENT_TRACER,   // acceleration structure, made at its first use (trace)
     ALPI_ATTACHMENT_COUNT
 } alpi_attachment_kind;

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "formats/collada/collada_ids.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf16.h"
 
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>

@@ -84,11 +84,6 @@ alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity
 /// Finds the spans of all elements, before the parser sees the text: depth and count are limited, a
 /// DTD inside is refused. What is not well-formed is left to the parser: *whole is false.
 alp_result alpi_collada_scan(alpi_collada_document *document, bool *whole);
-/// UTF-16 → UTF-8 and back. *out is released by the caller.
-alp_result alpi_utf16_decode(alp_context *context, const uint8_t *bytes, size_t size, bool big,
-                             uint8_t **out, size_t *out_size);
-alp_result alpi_utf16_encode(alp_context *context, const char *text, size_t size, bool big,
-                             uint8_t **out, size_t *out_size);
 
 // --- collada_tree.c: asking the tree -------------------------------------------------------------
 
