@@ -3,11 +3,8 @@
 // than of other images. So a host that draws loads them by a call of its own, which can fail for
 // want of memory and warns as reading the file does. A const scene that decoded at the first use
 // could do neither, and threads that read it would race.
-#include "formats/normal_maps.h"
-
 #include "base/memory.h"
-#include "formats/gltf/gltf_read.h"
-#include "formats/obj/obj_scene.h"
+#include "scene/scene.h"
 
 #include <alpenglow/geometry.h>
 
@@ -33,24 +30,6 @@ static void mark_normal_maps(const alp_scene *scene, bool *used, bool *needed)
     }
 }
 
-/// By the file that the scene was read from.
-static alp_result read_image(const alp_scene *scene, uint32_t index, alp_image **image)
-{
-    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
-    return document != NULL ? alpi_gltf_read_image(document, index, image)
-                            : alpi_obj_read_picture(scene, index, image);
-}
-
-alp_result alpi_scene_open_image(const alp_scene *scene, uint32_t index, alp_image **image)
-{
-    alp_image *there = scene->images[index];
-    if (there == NULL && scene->normal_maps != NULL) {
-        there = scene->normal_maps[index];
-    }
-    *image = alpi_image_share(there);
-    return there != NULL ? ALP_OK : read_image(scene, index, image);
-}
-
 static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)
 {
     bool *used = ALPI_NEW(scene->context, bool, scene->material_count);
@@ -61,7 +40,7 @@ static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)
     }
     for (uint32_t i = 0; result == ALP_OK && i < scene->image_count; i++) {
         if (needed[i] && scene->images[i] == NULL) {
-            result = read_image(scene, i, &maps[i]);
+            result = alpi_scene_open_image(scene, i, &maps[i]);
         }
     }
     alpi_release(scene->context, used);

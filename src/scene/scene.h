@@ -169,6 +169,10 @@ struct alp_scene {
     uint32_t light_map_count; // materials that name a map of light for viewers
     char up_axis;             // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
+    /// Decodes an image of the file that light does not need, for alpi_scene_open_image; NULL with a
+    /// warning where it cannot be read. NULL: the file is not known.
+    alp_result (*read_image)(const alp_scene *scene, uint32_t index, alp_image **image);
+
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
     alpi_attachment *attachments; // [ALPI_ATTACHMENT_COUNT]; filled in later even in a const scene
 };
@@ -190,6 +194,11 @@ alp_result alpi_scene_finish(alp_scene *scene);
 
 /// The same without warnings that a scene with the same materials and places gave before.
 alp_result alpi_scene_finish_quietly(alp_scene *scene);
+
+/// An image of a scene, decoded now where it was not: one more owner of it, who destroys it. NULL
+/// for one that cannot be read, with a warning, and where the scene's file is not known.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_scene_open_image(const alp_scene *scene, uint32_t index, alp_image **image);
 
 /// Shares the images and normal maps of a scene with one that has none.
 /// @return ALP_OK; OUT_OF_MEMORY

@@ -17,6 +17,7 @@
 //   obj_write_mtl.c  its MTL and pictures
 //   obj_write_shine.c  gloss and relief in it
 //   obj_patch.c      the OBJ that was read, with its bake
+//   obj_patch_faces.c  faces with new coordinates in it
 //   obj_patch_mtl.c  its libraries as one, and the files that they name
 #ifndef ALPI_FORMATS_OBJ_H
 #define ALPI_FORMATS_OBJ_H

@@ -43,7 +43,7 @@ static void note(const alp_scene *scene, const char *kind, uint32_t count)
     }
 }
 
-alp_result alpi_obj_note_losses(const alp_scene *scene, uint32_t heights)
+void alpi_obj_note_losses(const alp_scene *scene)
 {
     const alpi_obj_source *source = alpi_obj_source_of(scene);
     uint32_t counts[KIND_COUNT + 1] = {0};
@@ -54,6 +54,4 @@ alp_result alpi_obj_note_losses(const alp_scene *scene, uint32_t heights)
         note(scene, kinds[i], counts[i]);
     }
     note(scene, "illum", counts[KIND_COUNT]);
-    note(scene, "map_Bump of heights", source != NULL ? heights : 0);
-    return ALP_OK;
 }

@@ -10,15 +10,9 @@
 /// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
 alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
-/// Reads an image of a scene from an OBJ again; NULL, with a warning, where it cannot be read. Of
-/// other scenes NULL.
-/// @return ALP_OK; OUT_OF_MEMORY
-alp_result alpi_obj_read_picture(const alp_scene *scene, uint32_t index, alp_image **image);
-
 /// Notes what the material libraries of a scene say that glTF has no place for, each kind once.
 /// Nothing for a scene of another format.
-/// @param heights materials whose bump map holds heights
-alp_result alpi_obj_note_losses(const alp_scene *scene, uint32_t heights);
+void alpi_obj_note_losses(const alp_scene *scene);
 
 /// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
 /// triangles without area left out. Baked coordinates take the place of vt, and textures that need

@@ -68,6 +68,22 @@ static void destroy_source(alp_context *context, void *data)
     alpi_release(context, s);
 }
 
+const alpi_obj_source *alpi_obj_source_of(const alp_scene *scene)
+{
+    return scene->attachments[ALPI_ATTACHMENT_OBJ].data;
+}
+
+static alp_result read_picture(const alp_scene *scene, uint32_t index, alp_image **image)
+{
+    const alpi_obj_source *source = alpi_obj_source_of(scene);
+    *image = NULL;
+    if (source == NULL || index >= source->images.count) {
+        return ALP_OK;
+    }
+    const alpi_obj obj = {.context = scene->context, .folder = source->folder};
+    return alpi_obj_read_image(&obj, alpi_obj_name(&source->images, index), image);
+}
+
 alp_result alpi_obj_keep_source(alpi_obj *obj, alpi_obj_file *file, alpi_obj_names *images,
                                 alp_scene *scene)
 {
@@ -93,21 +109,6 @@ alp_result alpi_obj_keep_source(alpi_obj *obj, alpi_obj_file *file, alpi_obj_nam
     obj->face_triangles = NULL;
     obj->triangle_corners = NULL;
     scene->attachments[ALPI_ATTACHMENT_OBJ] = (alpi_attachment){kept, destroy_source};
+    scene->read_image = read_picture;
     return ALP_OK;
-}
-
-const alpi_obj_source *alpi_obj_source_of(const alp_scene *scene)
-{
-    return scene->attachments[ALPI_ATTACHMENT_OBJ].data;
-}
-
-alp_result alpi_obj_read_picture(const alp_scene *scene, uint32_t index, alp_image **image)
-{
-    const alpi_obj_source *source = alpi_obj_source_of(scene);
-    *image = NULL;
-    if (source == NULL || index >= source->images.count) {
-        return ALP_OK;
-    }
-    const alpi_obj obj = {.context = scene->context, .folder = source->folder};
-    return alpi_obj_read_image(&obj, alpi_obj_name(&source->images, index), image);
 }

@@ -8,7 +8,6 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/images/images.h"
-#include "formats/normal_maps.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,8 +5,6 @@
 
 #include "base/memory.h"
 #include "formats/images/images.h"
-#include "formats/normal_maps.h"
-#include "formats/obj/obj_scene.h"
 
 #include <math.h>
 
@@ -221,7 +219,11 @@ static alp_result add_made_images(alpi_gltf_exporter *e, const bool *used)
             ALP_TRY(add_relief(e, m, &heights));
         }
     }
-    return alpi_obj_note_losses(scene, heights);
+    if (heights > 0) {
+        alpi_note(e->context, "mtl-lost", "map_Bump of heights",
+                  "glTF has no place for it: %u materials lose it; an .obj keeps it", heights);
+    }
+    return ALP_OK;
 }
 
 alp_result alpi_export_images(alpi_gltf_exporter *e)

@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "formats/formats.h"
-#include "formats/normal_maps.h"
 
 #include <math.h>
 #include <stdlib.h>
