@@ -169,8 +169,8 @@ struct alp_scene {
     uint32_t light_map_count; // materials that name a map of light for viewers
     char up_axis;             // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
 
-    /// Decodes an image of the file that light does not need, for alpi_scene_open_image; NULL with a
-    /// warning where it cannot be read. NULL: the file is not known.
+    /// Decodes an image of the file that light does not need, for alpi_scene_open_image; NULL with
+    /// a warning where it cannot be read. NULL: the file is not known.
     alp_result (*read_image)(const alp_scene *scene, uint32_t index, alp_image **image);
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays

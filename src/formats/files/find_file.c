@@ -256,7 +256,8 @@ alp_result alpi_find_file(alp_context *context, const char *folder, const char *
     }
     char *decoded = alpi_copy_string(context, name), *other = NULL;
     alp_result result = decoded == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-    if (result == ALP_OK && alpi_uri_decode(decoded) && strcmp(decoded, name) != 0) {
+    if (result == ALP_OK && alpi_uri_decode(decoded) && strcmp(decoded, name) != 0 &&
+        strstr(decoded, "..") == NULL) {
         result = find(context, folder, from, decoded, &other, found);
     }
     if (*found != ALPI_FOUND_NOTHING || result != ALP_OK) {

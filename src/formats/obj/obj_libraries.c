@@ -185,6 +185,12 @@ alp_result alpi_obj_read_materials(alpi_obj *obj, alp_scene *scene, alpi_obj_nam
     if (result == ALP_OK) {
         result = match_names(&r, scene_materials);
     }
+    if (result == ALP_OK && r.invisible > 0) {
+        alpi_warn(obj->context, "alpha", obj->path,
+                  "materials with Tr 1 and without d, which some exporters write for opaque ones: "
+                  "%u; read as opaque, say d if they are not",
+                  r.invisible);
+    }
     obj->materials = r.names; // which the writer needs
     alpi_obj_names_destroy(&r.read);
     return result;

@@ -114,9 +114,7 @@ static alp_result join_mask(alpi_mtl_reader *r, alpi_material *m)
 static alp_result finish_alpha(alpi_mtl_reader *r, alpi_material *m)
 {
     if (!r->has_opacity && r->transparency >= 1.0f) {
-        alpi_warn(r->obj->context, "alpha", m->name,
-                  "Tr 1 without d would make it invisible, and some exporters write it for opaque "
-                  "materials: it is read as opaque; say d if it is not");
+        r->invisible++;
     } else if (!r->has_opacity) {
         m->base_color[3] = 1.0f - r->transparency;
     }

@@ -25,6 +25,7 @@ typedef struct alpi_mtl_reader {
     float exponent;         // Ns, negative = none
     int model;              // illum
     alpi_texture mask;      // map_d
+    uint32_t invisible;     // materials with Tr 1 and without d
 } alpi_mtl_reader;
 
 /// A texture statement behind its keyword.

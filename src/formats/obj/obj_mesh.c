@@ -77,8 +77,8 @@ static alp_result check_corners(alpi_obj *o)
     for (int k = 1; k < 3; k++) {
         if (without[k] > 0) {
             alpi_warn(o->context, "missing-data", o->path,
-                      "%u faces name %s, and the file has none: they are read without", without[k],
-                      kinds[k]);
+                      "faces that name %s, of which the file has none: %u; read without", kinds[k],
+                      without[k]);
         }
     }
     return ALP_OK;

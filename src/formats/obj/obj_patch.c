@@ -272,11 +272,11 @@ static alp_result patch_text(alpi_obj_patcher *p)
 alp_result alpi_obj_patch(alpi_obj_writer *w, const alpi_obj_source *source)
 {
     alpi_obj_patcher p = {.w = w,
-                 .source = source,
-                 .replaces = w->patch->corner_uvs != NULL,
-                 .out = &w->obj,
-                 .run = alpi_bytes_create(w->context),
-                 .uvs = alpi_obj_names_create(w->context)};
+                          .source = source,
+                          .replaces = w->patch->corner_uvs != NULL,
+                          .out = &w->obj,
+                          .run = alpi_bytes_create(w->context),
+                          .uvs = alpi_obj_names_create(w->context)};
     const alp_result result = patch_text(&p);
     void *const arrays[] = {p.old_uvs, p.material_used, p.words,   p.numbers,
                             p.keys,    p.known,         p.vertices};

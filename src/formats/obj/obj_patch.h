@@ -32,7 +32,7 @@ typedef struct alpi_obj_patcher {
     bool *material_used;               // [materials of the scene]
     alpi_obj_word *words;              // corners of the face
     uint32_t *numbers;                 // [words] of the coordinates, 0 = none
-    alpi_obj_uv_key *keys;                      // [words]
+    alpi_obj_uv_key *keys;             // [words]
     bool *known;                       // [words] has a key
     uint32_t *vertices;                // [words] of the scene, of one of the triangles there
     size_t word_capacity, number_capacity, key_capacity, known_capacity, vertex_capacity;

@@ -22,7 +22,8 @@ static alpi_obj_use use_of(const alpi_obj_patcher *p, uint32_t triangle)
     return use;
 }
 
-alpi_obj_use alpi_obj_use_of_face(const alpi_obj_patcher *p, uint32_t face, uint32_t triangles, bool *flat)
+alpi_obj_use alpi_obj_use_of_face(const alpi_obj_patcher *p, uint32_t face, uint32_t triangles,
+                                  bool *flat)
 {
     const uint32_t first = p->source->face_triangles[face];
     for (uint32_t i = 0; i < triangles; i++) {

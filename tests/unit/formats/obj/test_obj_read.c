@@ -187,10 +187,12 @@ TEST_WITH_CONTEXT(missing_data, 1)
     static const struct {
         const char *text, *words;
     } cases[] = {
-        {SQUARE "vn 0 1 0\nf 1/1/1 2/2/1 3/3/1\n", "1 faces name texture coordinates (vt)"},
-        {SQUARE "vt 0 0\nf 1/1/1 2/1/2 3/1/3\nf 1/1/7 3 4\n", "2 faces name normals (vn)"},
-        {SQUARE "f 1/-1 2/-2 3/-3\n", "1 faces name texture coordinates (vt)"},
-        {SQUARE "f 1//-1 2//-1 3//-1\n", "1 faces name normals (vn)"}};
+        {SQUARE "vn 0 1 0\nf 1/1/1 2/2/1 3/3/1\n",
+         "texture coordinates (vt), of which the file has none: 1;"},
+        {SQUARE "vt 0 0\nf 1/1/1 2/1/2 3/1/3\nf 1/1/7 3 4\n",
+         "normals (vn), of which the file has none: 2;"},
+        {SQUARE "f 1/-1 2/-2 3/-3\n", "texture coordinates (vt), of which the file has none: 1;"},
+        {SQUARE "f 1//-1 2//-1 3//-1\n", "normals (vn), of which the file has none: 1;"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         test_log_clear();
         alp_scene *scene = test_obj_scene(context, cases[i].text);
