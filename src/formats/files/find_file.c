@@ -13,7 +13,7 @@
 
 // --- paths ---------------------------------------------------------------------------------------
 
-/// Drops the last part of a path that ends in a slash. Where there is none it climbs out, or, where
+/// Drops the last part of a path that ends in a slash. With none left it climbs out, or, where
 /// that is not allowed, false.
 static bool climb(char *path, size_t *size, bool outside)
 {

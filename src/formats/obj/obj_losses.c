@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/// Ka is no loss: glTF has no ambient light. Of Kd and the like a scene has its own.
+/// Ka is no loss: glTF has no ambient light. The scene itself has Kd and the like.
 static const char *const kinds[] = {"map_Ka", "map_Ns", "disp",    "map_disp", "decal", "refl",
                                     "Ps",     "map_Ps", "Pc",      "Pcr",      "Tf",    "aniso",
                                     "anisor", "map_Tr", "map_RMA", "map_ORM"};
