@@ -76,7 +76,7 @@ static alp_result find_lighting(bounced_case *c, const char *sky, alp_lighting_o
 /// A way to gather.
 typedef struct bounced_way {
     const char *name;
-    bool adaptive, straight;
+    bool adaptive;
 } bounced_way;
 
 static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays, uint64_t seed,
@@ -97,8 +97,7 @@ static bool gather(const bounced_case *c, const bounced_way *way, uint32_t rays,
                                                .order = c->lit.order,
                                                .count = c->lit.count,
                                                .proximity = c->lit.map.validity.proximity,
-                                               .adaptive = way->adaptive,
-                                               .straight = way->straight};
+                                               .adaptive = way->adaptive};
     return bench_good(&c->lit.scene,
                       alpi_final_gather(&options, &c->lit.map.lattice, NULL, c->states, report));
 }
@@ -206,8 +205,7 @@ static bool measure(const bounced_case *c, const bounced_way *way, uint32_t rays
 static bool measure_ways(const bounced_case *c, const bench_options *options, bench_table *table)
 {
     static const bounced_way ways[] = {{.name = "every texel"},
-                                       {"lattice, cubic", true, false},
-                                       {"lattice, straight", true, true}};
+                                       {.name = "lattice", .adaptive = true}};
     enum { WAYS = sizeof ways / sizeof *ways };
     static const uint32_t rays[] = {64, 1024};
     for (int r = 0; r < (options->quick ? 1 : 2); r++) {

@@ -28,7 +28,7 @@ alp_result lit_scene_solve(const lit_scene *lit, uint32_t bounces, alpi_radiosit
     o.tracer = lit->scene.tracer;
     o.lighting = lit->soft != NULL ? lit->soft : lit->lighting;
     o.direct = lit->direct != NULL ? lit->direct : lit->lighting;
-    o.patch_rule.proximity = lit->map.validity.proximity;
+    o.proximity = lit->map.validity.proximity;
     o.gatherer = &gatherer;
     o.direct_samples = DIRECT_SAMPLES;
     o.seed = SEED_SOLUTION;

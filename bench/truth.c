@@ -86,6 +86,7 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
     const alpi_receivers receivers = alpi_texels_receivers(&map->texels);
     float *errors = bench_allocate(map->texels.count, sizeof *errors);
     alpi_occlusion_setup setup;
+    alpi_scratch scratch = {0};
     const alpi_occlusion_task task = {.setup = &setup,
                                       .receivers = &receivers,
                                       .order = map->lattice.order,
@@ -93,6 +94,7 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
                                       .proximity = map->validity.proximity,
                                       .lattice = &map->lattice,
                                       .errors = errors,
+                                      .scratch = &scratch,
                                       .accuracy = accuracy,
                                       .deadline = HUGE_VAL};
     memset(map->lattice.states, 0, map->texels.count);
@@ -100,7 +102,9 @@ bool bench_bake(const bench_scene *scene, bench_map *map, const alp_occlusion_op
     const double started = alpi_seconds();
     alp_result code = alpi_occlusion_prepare(scene->scene, scene->tracer, options, &setup);
     if (code == ALP_OK) {
-        code = alpi_occlusion_rounds(&task, &result->report);
+        code = alpi_scratch_create(setup.context, map->texels.count, false, &scratch);
+        code = code == ALP_OK ? alpi_occlusion_rounds(&task, &result->report) : code;
+        alpi_scratch_destroy(&scratch);
         alpi_occlusion_release(&setup);
     }
     result->seconds = alpi_seconds() - started;

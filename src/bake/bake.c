@@ -7,7 +7,7 @@
 #include "bake/files/outputs.h"
 #include "bake/files/pack_orm.h"
 #include "bake/gathering.h"
-#include "bake/layers.h"
+#include "bake/layer_plan.h"
 #include "bake/light/light.h"
 #include "bake/settings.h"
 

@@ -53,7 +53,7 @@ static alp_result find_valid(alpi_bake_job *job, alpi_object *object,
     const alpi_task_progress until = {
         .callback = is_in_time, .user = &limit, .stage = progress->stage};
     const alp_result result =
-        alpi_validity_look(&g->setup, &receivers, texels, &g->lattice, object->texels,
+        alpi_validity_find(&g->setup, &receivers, texels, &g->lattice, object->texels,
                            object->texel_count, &until, &g->validity);
     if (result == ALP_ERROR_CANCELLED && alpi_seconds() >= limit.deadline) {
         return alpi_fail(job->context, ALP_ERROR_LIMIT,

@@ -4,7 +4,7 @@
 
 #include "bake/files/pack_orm.h"
 #include "bake/gathering.h"
-#include "bake/layers.h"
+#include "bake/layer_plan.h"
 #include "bake/settings.h"
 #include "base/memory.h"
 #include "base/tasks.h"

@@ -3,7 +3,7 @@
 #include "bake/bake_stages.h"
 
 #include "bake/files/pack_orm.h"
-#include "bake/layers.h"
+#include "bake/layer_plan.h"
 #include "bake/settings.h"
 #include "scene/select.h"
 

@@ -154,7 +154,7 @@ TEST(two_plates)
         if (wide) {
             o.texels_per_metre = 0.008;
             o.rays = 1024;
-            o.spacing = 1;
+            o.side = 1;
             o.direct_samples = 4096;
         }
         test_radiant_open(make_plates(wide ? 500.0 : 0.5, albedo, exitance), &o, &r);
@@ -197,7 +197,7 @@ TEST(a_cube_of_texels)
         o.size = 64;
         o.rays = 256;
         o.hemicube = cube;
-        o.spacing = 2;
+        o.side = 2;
         o.direct_samples = 1024;
         test_radiant_open(make_cube(0.5, 0.0, 0.0, 1.0 / ALPI_PI), &o, &r);
         test_radiant_gather(&r, 1024);

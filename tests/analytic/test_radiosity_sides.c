@@ -119,13 +119,13 @@ TEST(thin_walls_let_nothing_through)
 /// patches of them, can mix both halves.
 TEST(walls_across_charts)
 {
-    for (uint32_t spacing = 1; spacing <= 4; spacing += 3) {
+    for (uint32_t side = 1; side <= 4; side += 3) {
         alpi_builder b;
         alp_scene *scene = NULL;
         test_radiant r;
         test_radiant_options o = test_radiant_default();
         double sums[2] = {0.0}, near = 0.0;
-        o.spacing = spacing;
+        o.side = side;
         alpi_builder_start(&b, context, "crossed");
         alpi_builder_surface(&b, "room", alpi_builder_material(&b, "room", HALF, ZERO));
         alpi_builder_box(&b, (vec3){1, 1, 1}, (vec3){-1, 0, 0}, ALPI_FACE_ALL);
@@ -147,10 +147,10 @@ TEST(walls_across_charts)
         printf(
             "accuracy: a wall across charts, patches of %u: %.1e of a half's light is behind it, "
             "%.1e in the texels that it crosses\n",
-            spacing, sums[1] / sums[0], near / sums[0]);
+            side, sums[1] / sums[0], near / sums[0]);
         // A texel of 4 cm that the wall crosses is as bright on its dark side as on the other, and
         // shines: so do those along the four edges of the wall.
-        assert_true(sums[1] < (spacing == 1 ? 0.01 : 0.02) * sums[0] && sums[1] > 0.0);
+        assert_true(sums[1] < (side == 1 ? 0.01 : 0.02) * sums[0] && sums[1] > 0.0);
         test_radiant_close(&r);
     }
 }

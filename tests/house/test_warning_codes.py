@@ -10,8 +10,9 @@ CALL = re.compile(r'alpi_warn\(\s*[^,"]+,\s*("([a-z0-9-]+)")?')
 # Told while something is written or a sky is set, long after the doctor's look; their text says what
 # to do.
 NOT_READERS = {
-    "baked-twice", "compression", "extras", "hdr-range", "images", "lightmap-metal",
-    "missing-file", "no-uv-set", "outside-file", "sky-image", "sun-below-horizon", "texture-lost", "uv-sets",
+    "baked-twice", "compression", "conversion", "copies", "extras", "hdr-range", "images", "lightmap-metal",
+    "missing-file", "no-uv-set", "outside-file", "sky-image", "sun-below-horizon", "texture-lost", "unlit",
+    "uv-sets", "variants",
 }
 
 

@@ -4,13 +4,14 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
 test_radiant_options test_radiant_default(void)
 {
     return (test_radiant_options){.size = 64,
                                   .max_angle = 0.01f,
                                   .bounces = UINT32_MAX,
-                                  .spacing = 4,
+                                  .side = 4,
                                   .tolerance = 1e-5,
                                   .rays = 64,
                                   .direct_samples = 256,
@@ -54,6 +55,13 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
         ASSERT_OK(r->context, alpi_lighting_split_sky(r->lit.lighting, options->lighting, &r->soft,
                                                       &r->direct));
     }
+    uint8_t *proximity = ALPI_NEW(r->context, uint8_t, r->texels.count);
+    assert_non_null(proximity);
+    memset(proximity,
+           options->side == 1   ? ALPI_TOUCHING
+           : options->side == 2 ? ALPI_NEAR
+                                : ALPI_FAR,
+           r->texels.count);
     const alpi_radiosity_options o = {.context = r->context,
                                       .scene = scene,
                                       .tracer = r->lit.tracer,
@@ -62,12 +70,13 @@ void test_radiant_open(alp_scene *scene, const test_radiant_options *options, te
                                       .gatherer = &r->gatherer,
                                       .bounces = options->bounces,
                                       .tolerance = options->tolerance,
-                                      .patch_rule = {.spacing = options->spacing},
+                                      .proximity = proximity,
                                       .direct_samples = options->direct_samples,
                                       .kept_limit = options->kept_limit,
                                       .seed = options->seed};
     ASSERT_OK(r->context, alpi_radiosity_solve(&o, &r->lattice, r->atlas, r->lattice.order,
                                                r->texels.count, NULL, &r->solution));
+    alpi_release(r->context, proximity);
 }
 
 void test_radiant_close(test_radiant *r)

@@ -15,7 +15,8 @@ typedef struct test_radiant_options {
     uint32_t size;                        // of a page; the densest atlas that fits one, unless
     double texels_per_metre;              // this is not 0
     float max_angle;                      // of a chart
-    uint32_t bounces, spacing;
+    uint32_t bounces;
+    uint32_t side;     // of patches in texels: 1, 2 or 4
     double tolerance;  // of what passes leave
     uint32_t rays;     // of a block
     uint32_t hemicube; // pixels along an edge, in place of rays; 0: rays
@@ -24,8 +25,8 @@ typedef struct test_radiant_options {
     bool soft_sky; // a sky is what the rays of blocks find, not direct light
 } test_radiant_options;
 
-/// A page of 64, a chart to each plane; all bounces, to 1e-5; blocks of 4 with 64 rays, all kept;
-/// 256 samples of each light; seed 1.
+/// A page of 64, a chart to each plane; all bounces, to 1e-5; patches of 4 × 4 with 64 rays, all
+/// kept; 256 samples of each light; seed 1.
 test_radiant_options test_radiant_default(void);
 
 /// Stays where it was opened: parts of it point at others.

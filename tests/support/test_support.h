@@ -52,8 +52,9 @@ int test_log_has(const char *code);
 /// All messages, one "code object: text" a line, for asserting on words.
 const char *test_log_text(void);
 
-/// Fails unless a function writes the same bytes for 1, 2, 7 and 32 workers. Gives the bytes, which
-/// the caller frees.
+/// Fails unless a function writes the same bytes for 1, 2, 7 and 32 workers; a quick run tries 1
+/// and
+/// 7. Gives the bytes, which the caller frees.
 /// @param make  writes `size` bytes, zeroed before, of what it is given
 typedef void test_make(uint32_t workers, const void *what, void *bytes);
 void *test_any_workers(test_make *make, const void *what, size_t size);

@@ -4,7 +4,7 @@
 #include "bake/bake_stages.h"
 #include "bake/check.h"
 #include "bake/files/outputs.h"
-#include "bake/layers.h"
+#include "bake/layer_plan.h"
 #include "bake/light/light_settings.h"
 #include "bake/settings.h"
 

@@ -212,7 +212,6 @@ alp_result alpi_light_measure(alpi_light_rounds *r, const uint32_t *list, uint32
                                                                      r->errors.solved_noise)
                                            : 0.0;
     r->errors = (alpi_light_errors){
-        .mean = mean,
         .scale = scale,
         .map_scale = map_scale,
         .direct = scale > 0.0 ? sqrt(d[1]) / scale : 0.0,

@@ -13,8 +13,8 @@
 /// Rays go on as paths if they hit a surface nearer than this times the size of its cells
 /// (patch_reach.h). On teapot-room at 1 %, 2 and 4 took longer and had no smaller error.
 static const float NEAR_REACH = 1.0f;
-/// Bounces of such a path, with the ray that hit: in corners it meets near surfaces again. 8 gain
-/// no accuracy on windows (docs/how/light.md, "Near rays").
+/// Bounces of such a path, with the ray that hit: in corners it meets near surfaces again. On
+/// builtin:windows 8 gain no accuracy.
 enum { NEAR_BOUNCES = 4 };
 
 // --- rays ----------------------------------------------------------------------------------------
@@ -60,7 +60,7 @@ void alpi_light_tracing_start(const alpi_light_rounds *r, uint32_t rays, uint64_
     t->others = t->cosine;
     t->others.seed = alpi_hash64(~seed);
     t->own = alpi_cosine_rays_gatherer(&t->cosine);
-    t->beside = alpi_cosine_rays_gatherer(&t->others);
+    t->independent = alpi_cosine_rays_gatherer(&t->others);
     t->gather =
         (alpi_gather_job){.context = job->context,
                           .from = &t->from,
@@ -104,7 +104,7 @@ alp_result alpi_light_relight(const alpi_light_rounds *r, uint32_t rays, double 
 
 // --- a round -------------------------------------------------------------------------------------
 
-const uint32_t *alpi_light_senders(const alpi_light_rounds *r, uint32_t *count)
+const uint32_t *alpi_light_tracing_texels(const alpi_light_rounds *r, uint32_t *count)
 {
     const bool few = r->worst.count > 0;
     *count = few ? r->worst.count : r->light->count;
@@ -117,7 +117,7 @@ static void note_round(alpi_light_rounds *r, const alpi_final_gather_report *rep
 {
     r->rays.seconds = seconds / ((double)rays * fmax((double)report->traced, 1.0));
     r->rays.factor = report->factor;
-    r->rays.sending = (double)report->traced;
+    r->rays.traced = (double)report->traced;
     r->rays.power = ALPI_LIGHT_RAYS_POWER;
     r->light->job->report.light_traced = report->traced;
     r->light->job->report.light_interpolated = report->interpolated;
@@ -139,13 +139,12 @@ alp_result alpi_light_gather(alpi_light_rounds *r, uint32_t rays, const alpi_lig
         .gather = &tracing.gather,
         .proximity = job->gathering.validity.proximity,
         .adaptive = all && light->settings.adaptive,
-        .straight = true,
         .held_out = all && (r->rays.per_texel == 0 || held_out->count > 0) ? held_out : NULL,
-        .independent = &tracing.beside,
+        .independent = &tracing.independent,
         .joined = r->fixed == NULL,
-        .levels = alpi_bake_wants_occlusion(&job->options) ? NULL : light->lattice->values,
+        .means = alpi_bake_wants_occlusion(&job->options) ? NULL : light->lattice->values,
     };
-    options.order = alpi_light_senders(r, &options.count);
+    options.order = alpi_light_tracing_texels(r, &options.count);
     if (!all) {
         memset(states, 0, light->receivers->count);
     }

@@ -13,8 +13,8 @@ typedef struct alpi_light_tracing {
     alpi_gather_scene from;
     alpi_reference near;
     alpi_cosine_rays cosine, others;
-    alpi_gatherer own, beside; // of other random numbers: for texels that are gathered twice
-    alpi_gather_job gather;    // without a list and values
+    alpi_gatherer own, independent; // of other random numbers: for texels that are gathered twice
+    alpi_gather_job gather;         // without a list and values
 } alpi_light_tracing;
 
 /// @param rays of a texel, from alpi_light_ray_count; a fixed gatherer has its own number
@@ -27,12 +27,13 @@ uint32_t alpi_light_ray_count(double rays);
 uint64_t alpi_light_round_seed(const alpi_light_rounds *rounds, bool direct);
 
 /// Texels that trace rays in this round, or may: the worst, or all.
-const uint32_t *alpi_light_senders(const alpi_light_rounds *rounds, uint32_t *count);
+const uint32_t *alpi_light_tracing_texels(const alpi_light_rounds *rounds, uint32_t *count);
 
-/// Relights the solution for the rays of the next round. From the second round on, cells read the
-/// light that texels gathered, which is finer than that of patches. Not with a number of bounces,
-/// where texels have one bounce more; nor with layers, whose light is apart. If only some surfaces
-/// are baked, rays read another atlas, and nothing is relit.
+/// Relights the solution for the rays of the next round. Cells take the light that texels gathered,
+/// once it is known by more rays than that of patches. Three cases keep to patches:
+/// - A number of bounces: the texels' light has one bounce more.
+/// - Layers: their light is apart.
+/// - Some surfaces baked alone (--only): rays read another atlas, and nothing is relit.
 /// @param rays  of a texel, so far
 /// @param noise out: 1 / √rays of the light of a patch
 /// @return ALP_OK; CANCELLED

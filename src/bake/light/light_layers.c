@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "maps/radiosity/regather.h"
 
-alpi_layer_arrays *alpi_light_find_layers(alpi_bake_job *job, bool sky)
+alpi_layer_arrays *alpi_light_start_layers(alpi_bake_job *job, bool sky)
 {
     alpi_layer_plan *plan = &job->layers;
     plan->light.part_layers = plan->part_layers;
@@ -64,14 +64,14 @@ alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_final_gathe
     return result;
 }
 
-void alpi_light_scale_layers(const alpi_light_direct *direct, const uint32_t *list, uint32_t count,
+void alpi_light_scale_layers(const alpi_light_rounds *rounds, const uint32_t *list, uint32_t count,
                              uint32_t more, bool merged)
 {
-    const alpi_layer_arrays *l = &direct->light->job->layers.light;
+    const alpi_layer_arrays *l = &rounds->light->job->layers.light;
     for (uint32_t layer = 0; layer < l->count; layer++) {
         for (uint32_t i = 0; i < count; i++) {
             const uint32_t t = list[i];
-            const double had = direct->counts[t];
+            const double had = rounds->direct.counts[t];
             const float factor = (float)(merged ? more / (had + more) : had / more);
             for (int k = 0; k < 3; k++) {
                 l->direct[layer][t][k] *= factor;

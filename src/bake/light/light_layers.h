@@ -8,7 +8,7 @@
 
 /// The layers that a solution fills; NULL: none are wanted.
 /// @param sky whether bounced rays gather the sky too
-alpi_layer_arrays *alpi_light_find_layers(alpi_bake_job *job, bool sky);
+alpi_layer_arrays *alpi_light_start_layers(alpi_bake_job *job, bool sky);
 /// Gathers each layer at the texels with the rays of the whole light, and averages it with the
 /// rounds before.
 /// @param rays of each texel now
@@ -19,7 +19,7 @@ alp_result alpi_light_gather_layers(alpi_light_rounds *rounds,
 /// Scales the direct light of each layer at listed texels, around more samples. The samples are
 /// added to `had / more` times the mean before; then the sum is scaled to the mean.
 /// @param merged false: before the samples; true: after them
-void alpi_light_scale_layers(const alpi_light_direct *direct, const uint32_t *list, uint32_t count,
+void alpi_light_scale_layers(const alpi_light_rounds *rounds, const uint32_t *list, uint32_t count,
                              uint32_t more, bool merged);
 /// Adds direct light to each layer. The mean of each value becomes the sum of the layers, as floats
 /// in their order.

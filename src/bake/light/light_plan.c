@@ -6,6 +6,8 @@
 #include "base/random.h"
 #include "base/tasks.h"
 
+#include <math.h>
+
 /// Share of the time left that a round may take: its time is a guess.
 static const double TIME_SHARE = 0.9;
 /// The least share of the texels that samples of direct light are for. It is counted for one way to
@@ -26,7 +28,8 @@ static alpi_light_plan plan_for(const alpi_light_effort *e, const alpi_light_noi
 {
     // A ray of bounced light takes as long as two or three shadow rays (measured: 1.9 to 5).
     const double dear = 2.5 / e->draw;
-    alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim, .noisy = noise->noisy};
+    alpi_light_plan p = {.for_direct = sqrt(1.0 - share) * aim,
+                         .listed = fmax(noise->noisy * e->texels, 1.0)};
     p.direct = more_samples(noise->direct, p.for_direct, e->direct_power) * e->direct;
     p.rays = more_samples(noise->bounced, sqrt(share) * aim, e->rays_power) * e->rays;
     p.cost = noise->noisy * e->texels * p.direct + dear * e->traced * p.rays;
@@ -53,33 +56,19 @@ alpi_light_plan alpi_light_cheapest(const alpi_light_effort *effort, const alpi_
     return best;
 }
 
-/// Rays of a texel that traces any in this round, weighted by its squared error.
-static double typical_rays(const alpi_light_rounds *r)
-{
-    double sum = 0.0, weighed = 0.0;
-    for (uint32_t i = 0; i < r->worst.count; i++) {
-        const uint32_t t = r->worst.list[i];
-        const alpi_reference_value *v = &r->light->values[t];
-        const double variance =
-            (double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2];
-        sum += variance;
-        weighed += variance * r->rays.of_texels[t];
-    }
-    return sum > 0.0 ? weighed / sum : r->rays.per_texel;
-}
-
 static alpi_light_plan cheapest(const alpi_light_rounds *r, const alpi_light_noise *noise,
                                 double aim)
 {
-    const alpi_light_effort effort = {.direct = alpi_light_typical_samples(&r->direct),
-                                      .rays = typical_rays(r),
-                                      .most = r->light->settings.most_rays,
-                                      .texels = r->light->count,
-                                      .direct_power = r->direct.power,
-                                      .rays_power = r->rays.power,
-                                      .draw = fmax(r->solution->direct_draw, 1.0),
-                                      .traced =
-                                          r->worst.count > 0 ? r->worst.count : r->rays.sending};
+    const alpi_light_effort effort = {
+        .direct = alpi_light_typical_samples(r),
+        .rays = alpi_light_typical(r->light->values, r->rays.of_texels, r->worst.list,
+                                   r->worst.count, r->rays.per_texel),
+        .most = r->light->settings.most_rays,
+        .texels = r->light->count,
+        .direct_power = r->direct.power,
+        .rays_power = r->rays.power,
+        .draw = fmax(r->solution->direct_draw, 1.0),
+        .traced = r->worst.count > 0 ? r->worst.count : r->rays.traced};
     return alpi_light_cheapest(&effort, noise, aim);
 }
 
@@ -104,7 +93,7 @@ static bool plan_for_all(const alpi_light_rounds *r, alpi_light_plan *plan)
         return false;
     }
     const double half = sqrt(0.5) * aim * r->errors.scale; // about the error of direct light
-    const double noisy = fmax(alpi_light_noisy_share(&r->direct, half), LEAST_NOISY);
+    const double noisy = fmax(alpi_light_noisy_share(r, half), LEAST_NOISY);
     const alpi_light_noise noise = {r->errors.direct, r->errors.bounced, noisy};
     *plan = cheapest(r, &noise, aim);
     return true;
@@ -146,14 +135,13 @@ double alpi_light_rays_left(const alpi_light_rounds *r)
 static void keep_ray_limit(alpi_light_rounds *r, alpi_light_plan *plan)
 {
     uint32_t count;
-    (void)alpi_light_senders(r, &count);
-    const double listed = fmax(plan->noisy * (double)r->light->count, 1.0);
-    const double wanted = listed * plan->direct + fmin(count, r->rays.sending) * plan->rays;
+    (void)alpi_light_tracing_texels(r, &count);
+    const double wanted = plan->listed * plan->direct + fmin(count, r->rays.traced) * plan->rays;
     const double left = alpi_light_rays_left(r);
     if (wanted > left) {
         const double share = left / wanted;
         const double direct = share * plan->direct, rays = share * plan->rays;
-        plan->direct = direct >= 0.125 * alpi_light_typical_samples(&r->direct) ? direct : 0.0;
+        plan->direct = direct >= 0.125 * alpi_light_typical_samples(r) ? direct : 0.0;
         plan->rays = rays >= 0.125 * r->rays.per_texel ? rays : 0.0;
         r->limited = true;
     }
@@ -188,7 +176,7 @@ alp_result alpi_light_plan_round(alpi_light_rounds *r, alpi_light_plan *plan)
 /// to .86.
 static const double MAP_SHARE = 0.85;
 /// Share of the texels that trace rays, as a guess.
-static const double SENDING_SHARE = 0.15;
+static const double TRACED_SHARE = 0.15;
 /// Power of the error with more rays than the pilot's, on a finer lattice too. Measured: .66 to
 /// .90. The largest is taken, as plans ask for more samples than they need.
 static const double PILOT_POWER = 0.9;
@@ -227,7 +215,7 @@ static alp_result gather_twice(alpi_light_rounds *r, const uint32_t *list, uint3
         first[i] = values[list[i]];
     }
     progress.units_before = 0.5 * progress.units_total;
-    tracing.gather.gatherer = &tracing.beside;
+    tracing.gather.gatherer = &tracing.independent;
     tracing.gather.skies = NULL; // those of the first stay
     ALP_TRY(alpi_gather_irradiance(&tracing.gather, &progress));
     for (uint32_t i = 0; i < count; i++) {
@@ -249,9 +237,9 @@ static alp_result plan_first(alpi_light_rounds *r, alpi_light_plan *plan, double
     const bool adaptive = light->settings.adaptive;
     uint32_t list[ALPI_LIGHT_PILOT_TEXELS];
     const uint32_t count = choose_texels(light, list);
-    r->rays.sending = (adaptive ? SENDING_SHARE : 1.0) * light->count;
+    r->rays.traced = (adaptive ? TRACED_SHARE : 1.0) * light->count;
     r->rays.power = PILOT_POWER;
-    alpi_light_clock_part(light->clock, false, r->rays.sending / (2.0 * ALPI_LIGHT_PILOT_TEXELS));
+    alpi_light_clock_part(light->clock, false, r->rays.traced / (2.0 * ALPI_LIGHT_PILOT_TEXELS));
     ALP_TRY(gather_twice(r, list, count));
     ALP_TRY(alpi_light_measure(r, list, count));
     r->errors.bounced *= adaptive ? MAP_SHARE : 1.0;
@@ -269,7 +257,7 @@ alp_result alpi_light_run_pilot(alpi_light_rounds *r, uint32_t *rays)
     ALP_TRY(plan_first(r, &plan, &wanted));
     // Half of the limit at most for each; later rounds see the rest.
     const double most = 0.5 * r->light->settings.ray_limit;
-    *rays = alpi_light_ray_count(fmax(fmin(wanted, most / r->rays.sending), ALPI_LIGHT_FIRST_RAYS));
+    *rays = alpi_light_ray_count(fmax(fmin(wanted, most / r->rays.traced), ALPI_LIGHT_FIRST_RAYS));
     if (plan.direct <= 0.0) {
         return ALP_OK;
     }
@@ -277,6 +265,6 @@ alp_result alpi_light_run_pilot(alpi_light_rounds *r, uint32_t *rays)
                                   .most = most,
                                   .seed = alpi_light_round_seed(r, true)};
     alpi_light_clock_part(r->light->clock, false, 1.0);
-    ALP_TRY(alpi_light_add_samples(&r->direct, &goal, &added));
+    ALP_TRY(alpi_light_add_samples(r, &goal, &added));
     return alpi_light_relight(r, 0, &r->errors.solved_noise);
 }

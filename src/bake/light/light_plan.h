@@ -12,7 +12,7 @@ typedef struct alpi_light_plan {
     double direct, rays; // 0: none
     double for_direct;   // error of direct light after the round
     double cost;
-    double noisy; // share of the texels that the samples are for, about
+    double listed; // texels that the samples are for, about
 } alpi_light_plan;
 
 /// Plans the first round with a pilot, so that it is the last one if possible: a few texels trace
@@ -46,7 +46,7 @@ typedef struct alpi_light_effort {
     double draw; // time of a sample of direct light, over that of a shadow ray
 } alpi_light_effort;
 
-/// The cheapest round that brings √(direct² + bounced²) down to `aim`.
+/// The cheapest round that lowers √(direct² + bounced²) to `aim`.
 alpi_light_plan alpi_light_cheapest(const alpi_light_effort *effort, const alpi_light_noise *noise,
                                     double aim);
 

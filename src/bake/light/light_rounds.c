@@ -20,6 +20,7 @@
 #include "base/memory.h"
 #include "base/tasks.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -78,7 +79,7 @@ static alp_result add_rays(alpi_light_rounds *r, uint32_t rays)
 {
     double noise;
     uint32_t count;
-    const uint32_t *list = alpi_light_senders(r, &count);
+    const uint32_t *list = alpi_light_tracing_texels(r, &count);
     ALP_TRY(alpi_light_relight(r, r->rays.per_texel, &noise));
     ALP_TRY(alpi_light_gather(r, rays, &r->fresh));
     for (uint32_t i = 0; i < count; i++) {
@@ -99,35 +100,33 @@ static alp_result add_rays(alpi_light_rounds *r, uint32_t rays)
 static alp_result add_samples(alpi_light_rounds *r, const alpi_light_plan *plan, double samples,
                               bool rays, bool *added)
 {
-    const double listed = fmax(plan->noisy * (double)r->light->count, 1.0);
     const bool whole = isinf(r->light->clock->deadline) && !r->limited;
     const alpi_light_goal goal = {.wanted = plan->for_direct * r->errors.scale,
                                   .each = r->for_worst,
                                   .among = r->for_worst ? r->worst.marks : NULL,
-                                  .most = whole ? alpi_light_rays_left(r) : samples * listed,
+                                  .most = whole ? alpi_light_rays_left(r) : samples * plan->listed,
                                   .seed = alpi_light_round_seed(r, true)};
     alpi_light_clock_part(r->light->clock, false, rays ? 1.0 : 0.0);
-    return alpi_light_add_samples(&r->direct, &goal, added);
+    return alpi_light_add_samples(r, &goal, added);
 }
 
 /// Runs a planned round, as far as the time allows.
 /// @param done out: nothing was added
 static alp_result run_round(alpi_light_rounds *r, const alpi_light_plan *plan, bool *done)
 {
-    const double listed = fmax(plan->noisy * (double)r->light->count, 1.0);
-    const double each = listed * r->direct.seconds * (plan->rays > 0.0 ? 2.0 : 1.0);
+    const double each = plan->listed * r->direct.seconds * (plan->rays > 0.0 ? 2.0 : 1.0);
     const double samples =
-        alpi_light_affordable(r, plan->direct, each, alpi_light_typical_samples(&r->direct));
+        alpi_light_affordable(r, plan->direct, each, alpi_light_typical_samples(r));
     const double before = r->errors.direct * r->errors.scale;
     uint32_t count;
     bool added = false;
-    (void)alpi_light_senders(r, &count);
+    (void)alpi_light_tracing_texels(r, &count);
     r->number++;
     if (samples > 0.0) {
         ALP_TRY(add_samples(r, plan, samples, plan->rays > 0.0, &added));
     }
     const double rays = alpi_light_affordable(
-        r, plan->rays, r->rays.seconds * fmin(count, r->rays.sending), r->rays.per_texel);
+        r, plan->rays, r->rays.seconds * fmin(count, r->rays.traced), r->rays.per_texel);
     if (rays > 0.0) {
         alpi_light_clock_part(r->light->clock, true, 0.0);
         ALP_TRY(add_rays(r, alpi_light_ray_count(rays)));
@@ -151,11 +150,7 @@ static alp_result start_direct(alpi_light_rounds *r)
     alp_context *context = light->job->context;
     const uint32_t texels = light->receivers->count;
     const uint32_t samples = r->solution->options.direct_samples;
-    r->direct = (alpi_light_direct){.light = light,
-                                    .solution = r->solution,
-                                    .values = r->solution->direct,
-                                    .most = samples,
-                                    .limit = light->settings.most_rays,
+    r->direct = (alpi_light_direct){.most = samples,
                                     .power = ALPI_LIGHT_FIRST_POWER,
                                     .seconds = r->solution->direct_seconds /
                                                (samples * fmax(light->count, 1.0))};
@@ -167,8 +162,6 @@ static alp_result start_direct(alpi_light_rounds *r)
         ALPI_TRY_NEW(context, r->fresh.directional, texels);
     }
     ALPI_TRY_NEW(context, r->direct.counts, texels);
-    r->direct.fresh = r->fresh.values;
-    r->direct.fresh_directional = r->fresh.directional;
     for (uint32_t i = 0; i < light->count; i++) {
         r->direct.counts[light->order[i]] = samples;
     }
@@ -296,13 +289,21 @@ alp_result alpi_light_run_rounds(alpi_light_rounds *r)
 void alpi_light_rounds_trim(alpi_light_rounds *r)
 {
     alp_context *context = r->light->job->context;
-    void *const arrays[] = {r->fresh.values,         r->fresh.skies,        r->fresh.directional,
-                            r->direct.counts,        r->rays.of_texels,     r->worst.marks,
-                            r->worst.list,           r->interpolated.marks, r->interpolated.means,
+    void *const arrays[] = {r->states,
+                            r->fresh.values,
+                            r->fresh.skies,
+                            r->fresh.directional,
+                            r->direct.counts,
+                            r->rays.of_texels,
+                            r->worst.marks,
+                            r->worst.list,
+                            r->interpolated.marks,
+                            r->interpolated.means,
                             r->interpolated.held_out};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(context, arrays[i]);
     }
+    r->states = NULL;
     r->fresh = (alpi_light_fresh){0};
     r->direct = (alpi_light_direct){0};
     r->rays.of_texels = NULL;
@@ -314,7 +315,5 @@ void alpi_light_rounds_clear(alpi_light_rounds *r)
 {
     alpi_light_rounds_trim(r);
     alpi_release(r->light->job->context, r->skies);
-    alpi_release(r->light->job->context, r->states);
     r->skies = NULL;
-    r->states = NULL;
 }

@@ -10,7 +10,7 @@
 /// @param rounds with light, solution and fixed; cleared by alpi_light_rounds_clear in any case
 /// @return ALP_OK, also if later rounds were cut off; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_light_run_rounds(alpi_light_rounds *rounds);
-/// Releases all but the skies, which are released by alpi_light_rounds_clear.
+/// Releases all but the skies.
 void alpi_light_rounds_trim(alpi_light_rounds *rounds);
 void alpi_light_rounds_clear(alpi_light_rounds *rounds);
 

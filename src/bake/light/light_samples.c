@@ -45,7 +45,7 @@ alp_result alpi_light_sample_all(alpi_light_bake *light)
     ALPI_TRY_NEW(job->context, light->values, texels);
     alpi_direct *direct = NULL;
     alpi_direct_output output = {.values = light->values, .directional = light->directional};
-    alpi_layer_arrays *layers = alpi_light_find_layers(job, false);
+    alpi_layer_arrays *layers = alpi_light_start_layers(job, false);
     if (layers != NULL) {
         ALP_TRY(alpi_layer_arrays_reserve(layers, texels, 0, texels));
         output.groups = layers->direct;
@@ -82,7 +82,7 @@ double alpi_light_power(double power, double predicted, double measured)
 
 /// The texels that get more samples, during one call.
 typedef struct share_job {
-    alpi_light_direct *direct;
+    alpi_light_rounds *rounds;
     const alpi_light_goal *goal;
     uint8_t *marks; // [texels] whether it is noisy, or beside a noisy one; then its class
     uint32_t *list; // [count] those that may get samples
@@ -101,41 +101,31 @@ static double noise_of(const alpi_reference_value *v)
     return (double)fmaxf(v->variance[0], fmaxf(v->variance[1], v->variance[2]));
 }
 
-double alpi_light_noisy_share(const alpi_light_direct *d, double wanted)
+double alpi_light_noisy_share(const alpi_light_rounds *r, double wanted)
 {
-    const alpi_light_bake *t = d->light;
     uint32_t noisy = 0;
-    for (uint32_t i = 0; i < t->count; i++) {
-        noisy += noise_of(&d->values[t->order[i]]) > NOISY * wanted * wanted;
+    for (uint32_t i = 0; i < r->light->count; i++) {
+        noisy += noise_of(&r->solution->direct[r->light->order[i]]) > NOISY * wanted * wanted;
     }
-    return noisy / fmax(t->count, 1.0);
+    return noisy / fmax(r->light->count, 1.0);
 }
 
-double alpi_light_typical_samples(const alpi_light_direct *d)
+double alpi_light_typical(const alpi_reference_value *values, const uint32_t *counts,
+                          const uint32_t *list, uint32_t count, double otherwise)
 {
     double sum = 0.0, weighed = 0.0;
-    for (uint32_t i = 0; i < d->light->count; i++) {
-        const uint32_t texel = d->light->order[i];
-        const double v = mean_variance(&d->values[texel]);
+    for (uint32_t i = 0; i < count; i++) {
+        const double v = mean_variance(&values[list[i]]);
         sum += v;
-        weighed += v * d->counts[texel];
+        weighed += v * counts[list[i]];
     }
-    return sum > 0.0 ? weighed / sum : d->most;
+    return sum > 0.0 ? weighed / sum : otherwise;
 }
 
-/// Texels of the 3 × 3 around one, itself among them. @return how many
-static int find_around(const alpi_lattice *l, uint32_t texel, uint32_t around[9])
+double alpi_light_typical_samples(const alpi_light_rounds *r)
 {
-    const uint16_t *p = l->texels->pixels[texel];
-    int count = 0;
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(l, l->texels->pages[texel], (int64_t)p[0] + k % 3 - 1,
-                                              (int64_t)p[1] + k / 3 - 1);
-        if (n != ALPI_NONE) {
-            around[count++] = n;
-        }
-    }
-    return count;
+    return alpi_light_typical(r->solution->direct, r->direct.counts, r->light->order,
+                              r->light->count, r->direct.most);
 }
 
 /// Lists the noisy texels and their neighbours. The few samples of one texel may miss a shadow's
@@ -143,19 +133,20 @@ static int find_around(const alpi_lattice *l, uint32_t texel, uint32_t around[9]
 static void list_noisy(share_job *job)
 {
     enum { NOISY_ITSELF = 1, BESIDE_NOISY = 2 };
-    const alpi_light_bake *t = job->direct->light;
+    const alpi_light_bake *t = job->rounds->light;
     const double wanted = job->goal->wanted;
     const uint8_t *among = job->goal->among;
     for (uint32_t i = 0; i < t->count; i++) {
         const uint32_t texel = t->order[i];
-        const bool noisy = noise_of(&job->direct->values[texel]) > NOISY * wanted * wanted;
+        const bool noisy =
+            noise_of(&job->rounds->solution->direct[texel]) > NOISY * wanted * wanted;
         job->marks[texel] = noisy && (among == NULL || among[texel] != 0) ? NOISY_ITSELF : 0;
     }
     for (uint32_t i = 0; i < t->count; i++) {
-        uint32_t around[9];
+        uint32_t around[ALPI_AROUND_LIMIT];
         const bool noisy = (job->marks[t->order[i]] & NOISY_ITSELF) != 0;
-        const int count = noisy ? find_around(t->lattice, t->order[i], around) : 0;
-        for (int k = 0; k < count; k++) {
+        const uint32_t count = noisy ? alpi_lattice_around(t->lattice, t->order[i], around) : 0;
+        for (uint32_t k = 0; k < count; k++) {
             job->marks[around[k]] |= BESIDE_NOISY;
         }
     }
@@ -179,13 +170,14 @@ typedef struct texel_need {
 /// samples.
 static texel_need find_need(const share_job *job, uint32_t texel)
 {
-    const alpi_light_direct *d = job->direct;
-    uint32_t around[9];
-    const int count = find_around(d->light->lattice, texel, around);
+    const alpi_light_direct *d = &job->rounds->direct;
+    const alpi_reference_value *values = job->rounds->solution->direct;
+    uint32_t around[ALPI_AROUND_LIMIT];
+    const uint32_t count = alpi_lattice_around(job->rounds->light->lattice, texel, around);
     const double had = d->counts[texel];
     double sum = 0.0, known = 0.0;
-    for (int k = 0; k < count; k++) {
-        const double v = mean_variance(&d->values[around[k]]), by = d->counts[around[k]];
+    for (uint32_t k = 0; k < count; k++) {
+        const double v = mean_variance(&values[around[k]]), by = d->counts[around[k]];
         if (by > 0.0) {
             sum += by == had ? v : v * pow(by / had, 2.0 * d->power);
             known += 1.0;
@@ -193,7 +185,7 @@ static texel_need find_need(const share_job *job, uint32_t texel)
     }
     texel_need n = {.variance = sum / fmax(known, 1.0), .had = had};
     if (job->goal->each) { // t brings this texel to the wanted error
-        n.variance = fmax(n.variance, mean_variance(&d->values[texel]));
+        n.variance = fmax(n.variance, mean_variance(&values[texel]));
         n.rate = log2(n.had) + (0.5 * log2(n.variance) - log2(job->goal->wanted)) / d->power;
     } else {
         n.rate = (log2(n.variance) + 2.0 * d->power * log2(n.had)) / (2.0 * d->power + 1.0);
@@ -205,7 +197,7 @@ static texel_need find_need(const share_job *job, uint32_t texel)
 static int class_of(const share_job *job, const texel_need *n)
 {
     const double more = exp2(job->scale + n->rate) - n->had;
-    const double most = fmin(MOST_TIMES * n->had, job->direct->limit - n->had);
+    const double most = fmin(MOST_TIMES * n->had, job->rounds->light->settings.most_rays - n->had);
     if (!(more >= (job->goal->each ? 0.0 : 0.5 * LEAST)) || most < LEAST) {
         return -1;
     }
@@ -251,23 +243,24 @@ static double predict(const share_job *job, const need_sample *sample, double *s
     for (uint32_t i = 0; i < sample->count; i++) {
         const double had = sample->needs[i].had,
                      more = samples_of(class_of(job, &sample->needs[i]));
-        const double left = more > 0.0 ? pow(had / (had + more), 2.0 * job->direct->power) : 1.0;
+        const double left =
+            more > 0.0 ? pow(had / (had + more), 2.0 * job->rounds->direct.power) : 1.0;
         sum += sample->needs[i].variance * left;
         *samples += sample->stands_for * more;
     }
-    return sum * sample->stands_for / fmax(job->direct->light->count, 1.0);
+    return sum * sample->stands_for / fmax(job->rounds->light->count, 1.0);
 }
 
 /// Mean over all texels of the variance of those that are not listed.
 static double mean_of_others(const share_job *job)
 {
-    const alpi_light_bake *t = job->direct->light;
+    const alpi_light_bake *t = job->rounds->light;
     double sum = 0.0;
     for (uint32_t i = 0; i < t->count; i++) {
-        sum += mean_variance(&job->direct->values[t->order[i]]);
+        sum += mean_variance(&job->rounds->solution->direct[t->order[i]]);
     }
     for (uint32_t i = 0; i < job->count; i++) {
-        sum -= mean_variance(&job->direct->values[job->list[i]]);
+        sum -= mean_variance(&job->rounds->solution->direct[job->list[i]]);
     }
     return fmax(sum, 0.0) / fmax(t->count, 1.0);
 }
@@ -295,7 +288,7 @@ static void find_scale(share_job *job)
         }
     }
     job->scale = high;
-    job->direct->predicted = sqrt(predict(job, &sample, &samples) + others);
+    job->rounds->direct.predicted = sqrt(predict(job, &sample, &samples) + others);
 }
 
 // --- sampling ------------------------------------------------------------------------------------
@@ -303,23 +296,24 @@ static void find_scale(share_job *job)
 /// Samples the texels of one class.
 static alp_result sample_class(const share_job *job, uint32_t count, uint32_t more)
 {
-    alpi_light_direct *d = job->direct;
+    alpi_light_rounds *r = job->rounds;
+    alpi_light_direct *d = &r->direct;
+    const alpi_radiosity *solution = r->solution;
     const uint64_t seed = alpi_hash64(alpi_hash64(job->goal->seed) + more);
-    alpi_direct_output output = {.values = d->fresh, .directional = d->fresh_directional};
-    alpi_light_scale_layers(d, job->some, count, more, false);
-    ALP_TRY(alpi_radiosity_direct(d->solution, job->some, count, more, seed, &d->light->progress,
+    alpi_direct_output output = {.values = r->fresh.values, .directional = r->fresh.directional};
+    alpi_light_scale_layers(r, job->some, count, more, false);
+    ALP_TRY(alpi_radiosity_direct(solution, job->some, count, more, seed, &r->light->progress,
                                   &output));
-    alpi_light_scale_layers(d, job->some, count, more, true);
-    d->light->job->report.rays += output.rays;
+    alpi_light_scale_layers(r, job->some, count, more, true);
+    r->light->job->report.rays += output.rays;
     d->drawn += (double)count * more;
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t t = job->some[i];
-        const double had = d->counts[t];
-        alpi_light_merge(&d->values[t], &d->fresh[t], had, more);
-        if (d->solution->directional != NULL) {
-            const double all = had + more;
-            alpi_directional_mix(&d->solution->directional[t], (float)(had / all),
-                                 &d->fresh_directional[t], (float)(more / all));
+        const double had = d->counts[t], all = had + more;
+        alpi_light_merge(&solution->direct[t], &r->fresh.values[t], had, more);
+        if (solution->directional != NULL) {
+            alpi_directional_mix(&solution->directional[t], (float)(had / all),
+                                 &r->fresh.directional[t], (float)(more / all));
         }
         d->counts[t] += more;
         d->most = d->counts[t] > d->most ? d->counts[t] : d->most;
@@ -344,7 +338,7 @@ static alp_result sample_classes(share_job *job, bool *added)
 {
     double samples = 0.0;
     const double began = alpi_seconds();
-    ALP_TRY(alpi_parallel_for(job->direct->light->job->context, job->count, TEXELS_PER_RANGE,
+    ALP_TRY(alpi_parallel_for(job->rounds->light->job->context, job->count, TEXELS_PER_RANGE,
                               find_classes, job, NULL));
     for (int k = 0; k < CLASSES; k++) {
         uint32_t count = 0;
@@ -359,15 +353,15 @@ static alp_result sample_classes(share_job *job, bool *added)
     }
     *added = samples > 0.0;
     if (*added) {
-        job->direct->seconds = (alpi_seconds() - began) / samples;
+        job->rounds->direct.seconds = (alpi_seconds() - began) / samples;
     }
     return ALP_OK;
 }
 
 static alp_result run(share_job *job, bool *added)
 {
-    alp_context *context = job->direct->light->job->context;
-    const uint32_t texels = job->direct->light->receivers->count;
+    alp_context *context = job->rounds->light->job->context;
+    const uint32_t texels = job->rounds->light->receivers->count;
     ALPI_TRY_NEW(context, job->marks, texels);
     ALPI_TRY_NEW(context, job->list, texels);
     list_noisy(job);
@@ -376,13 +370,14 @@ static alp_result run(share_job *job, bool *added)
     return sample_classes(job, added);
 }
 
-alp_result alpi_light_add_samples(alpi_light_direct *direct, const alpi_light_goal *goal,
+alp_result alpi_light_add_samples(alpi_light_rounds *rounds, const alpi_light_goal *goal,
                                   bool *added)
 {
-    share_job job = {.direct = direct, .goal = goal};
+    alp_context *context = rounds->light->job->context;
+    share_job job = {.rounds = rounds, .goal = goal};
     const alp_result result = run(&job, added);
-    alpi_release(direct->light->job->context, job.marks);
-    alpi_release(direct->light->job->context, job.list);
-    alpi_release(direct->light->job->context, job.some);
+    alpi_release(context, job.marks);
+    alpi_release(context, job.list);
+    alpi_release(context, job.some);
     return result;
 }

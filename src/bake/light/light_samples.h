@@ -25,9 +25,14 @@ void alpi_light_merge(alpi_reference_value *value, const alpi_reference_value *f
 
 /// Share of the texels with noisy direct light.
 /// @param wanted root mean square error, W·m⁻²
-double alpi_light_noisy_share(const alpi_light_direct *direct, double wanted);
-/// Samples of a texel, weighted by its squared error.
-double alpi_light_typical_samples(const alpi_light_direct *direct);
+double alpi_light_noisy_share(const alpi_light_rounds *rounds, double wanted);
+/// Samples or rays of a listed texel, weighted by its squared error.
+/// @param counts    [texels]
+/// @param otherwise returned if there is no error
+double alpi_light_typical(const alpi_reference_value *values, const uint32_t *counts,
+                          const uint32_t *list, uint32_t count, double otherwise);
+/// Samples of a texel with direct light, weighted by its squared error.
+double alpi_light_typical_samples(const alpi_light_rounds *rounds);
 
 /// The aim of more samples.
 typedef struct alpi_light_goal {
@@ -41,7 +46,7 @@ typedef struct alpi_light_goal {
 /// Adds samples of direct light, more of them at noisier texels.
 /// @param added out: whether any texel got samples
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_light_add_samples(alpi_light_direct *direct, const alpi_light_goal *goal,
+alp_result alpi_light_add_samples(alpi_light_rounds *rounds, const alpi_light_goal *goal,
                                   bool *added);
 
 #endif

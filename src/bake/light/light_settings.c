@@ -54,9 +54,9 @@ static uint32_t find_most_rays(const alp_light_options *o)
 
 // --- direct light --------------------------------------------------------------------------------
 
-/// Without rounds, the samples that make direct light's error half of bounced light's: measured on
-/// the Cornell box, 64 beside 128 rays, and 128 beside 512. Fewer pay beside fewer rays there, but
-/// not if light comes through windows.
+/// Without rounds, the error of direct light is half of that of bounced light. Measured on the
+/// Cornell box, this takes 64 samples beside 128 rays, and 128 beside 512. Fewer samples beside
+/// fewer rays pay there, but not if light comes through windows.
 static uint32_t find_direct_samples(const alp_bake_options *o)
 {
     enum { IN_ROUNDS = 8, LEAST = 64, MOST = 512, RAYS = 128 };

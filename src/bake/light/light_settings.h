@@ -56,7 +56,7 @@ void alpi_light_gatherers_clear(alpi_light_gatherers *gatherers);
 /// The sky split. A sky without bright spots is gathered by the rays of bounced light; its bright
 /// spots are sampled as direct light, with all other lights. Panes would mix the two.
 typedef struct alpi_light_sources {
-    const alpi_lighting *gathered; // its sky lights rays that leave the scene, if the sky is split
+    const alpi_lighting *gathered; // rays that leave the scene find its sky, if the sky is split
     const alpi_lighting *sampled;  // direct light
     const alpi_lighting *near;     // direct light of near rays (light_gather.c)
     alpi_lighting *soft, *spots;   // owned; NULL: the sky is not split

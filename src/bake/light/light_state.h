@@ -6,7 +6,7 @@
 #include "bake/light/light_progress.h"
 #include "bake/light/light_settings.h"
 #include "maps/radiosity/final_gather.h"
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 typedef struct alpi_light_bake {
     alpi_bake_job *job;
@@ -27,20 +27,14 @@ typedef struct alpi_light_bake {
 
 // --- direct light --------------------------------------------------------------------------------
 
-/// Samples of direct light. Texels have different numbers of them.
+/// Samples of direct light so far. Texels have different numbers of them.
 typedef struct alpi_light_direct {
-    alpi_light_bake *light;
-    const alpi_radiosity *solution;
-    alpi_reference_value *values;        // [texels] of the solution
-    alpi_reference_value *fresh;         // [texels] scratch
-    alpi_directional *fresh_directional; // [texels] scratch; NULL: not wanted
-    uint32_t *counts;                    // [texels] samples so far; 0: no light of its own
-    uint32_t most;                       // samples of any texel so far
-    double limit;                        // samples of a texel, at most
-    double power;                        // the error falls with samples^−power
-    double predicted;                    // root mean square error after the planned samples
-    double seconds;                      // of one more sample of a texel
-    double drawn;                        // samples of all rounds and texels
+    uint32_t *counts; // [texels] 0: no light of its own; NULL without rounds
+    uint32_t most;    // of any texel
+    double power;     // the error falls with samples^−power
+    double predicted; // root mean square error after the last samples, W·m⁻²
+    double seconds;   // of one more sample of a texel
+    double drawn;     // of all rounds and texels
 } alpi_light_direct;
 
 // --- errors --------------------------------------------------------------------------------------
@@ -54,7 +48,6 @@ typedef struct alpi_light_error {
 
 /// Errors of the light so far.
 typedef struct alpi_light_errors {
-    double mean;             // of all light
     double scale, map_scale; // errors are relative to these; map_scale: without direct light, if
                              // the map has none
     double direct, bounced;  // root mean squares over scale, and over map_scale
@@ -89,7 +82,7 @@ typedef struct alpi_light_rays {
     uint32_t *of_texels; // [texels] with them; NULL in the first round
     uint32_t most;       // of any texel
     double sent;         // of all texels, with those of layers and the pilot
-    double sending;      // texels that trace rays in a round of all; a guess before the first
+    double traced;       // texels that trace rays in a round of all; a guess before the first
     double power;        // the error falls with rays^−power
     double seconds;      // of one more ray of a texel that traces any
     float factor;        // alpi_final_gather_report.factor of the last round of all texels

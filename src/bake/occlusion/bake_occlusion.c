@@ -8,7 +8,7 @@
 #include "bake/settings.h"
 #include "base/memory.h"
 #include "base/tasks.h"
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include <math.h>
 #include <stdio.h>

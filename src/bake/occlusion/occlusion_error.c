@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The stated error after a round. The quarters of a texel's samples give its variance up to a
 // factor. The held-out texels measure the factor, apart for traced and for interpolated texels.
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_error.h"
 
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include <assert.h>
 #include <math.h>
@@ -46,7 +46,7 @@ static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sum
 alp_result alpi_occlusion_measure_noise(alpi_occlusion_state *state, float *noise, uint32_t *traced)
 {
     double sums[ALPI_SUM_LIMIT];
-    ALP_TRY(alpi_occlusion_sum_texels(state, sum_noise, state, sums));
+    ALP_TRY(alpi_occlusion_sum_texels(&state->clock, sum_noise, state, sums));
     *noise = sums[1] > 0.0 ? (float)sqrt(sums[0] / sums[1]) : 0.0f;
     *traced = (uint32_t)sums[1];
     return ALP_OK;
@@ -58,7 +58,6 @@ typedef struct error_job {
     const alpi_occlusion_state *state;
     const alpi_lattice *lattice;
     float *errors;          // of the task: variances at first
-    uint32_t pass;          // of the texels that the loop takes
     double means[STATES];   // of the variances, by state
     double factors[STATES]; // by state
 } error_job;
@@ -68,46 +67,36 @@ typedef struct error_job {
 static double pool_variance(const error_job *job, uint32_t texel)
 {
     const alpi_occlusion_sums *sums = &job->state->scratch->sums;
-    uint32_t near[ALPI_NEIGHBOUR_LIMIT];
-    const uint32_t count = alpi_lattice_traced_around(job->lattice, texel, near);
+    uint32_t around[ALPI_NEIGHBOUR_LIMIT];
+    const uint32_t count = alpi_lattice_traced_around(job->lattice, texel, around);
     double sum = spread_variance(sums, texel);
     for (uint32_t i = 0; i < count; i++) {
-        sum += spread_variance(sums, near[i]);
+        sum += spread_variance(sums, around[i]);
     }
     return sum / (1.0 + count);
 }
 
 /// Variance of an interpolated texel: that of its neighbours by their weights, and an allowance for
 /// a truth that bends between them.
-static double stencil_variance(const error_job *job, uint32_t texel)
+static void set_stencil_variance(void *user, uint32_t texel, const alpi_stencil *s)
 {
-    alpi_stencil s;
+    const error_job *job = user;
     double variance = 0.0;
-    if (!alpi_lattice_stencil(job->lattice, texel, &s)) {
-        return 0.0;
+    for (uint32_t i = 0; i < s->count; i++) {
+        variance += (double)(s->weights[i] * s->weights[i]) * (double)job->errors[s->texels[i]];
     }
-    for (uint32_t i = 0; i < s.count; i++) {
-        variance += (double)(s.weights[i] * s.weights[i]) * (double)job->errors[s.texels[i]];
-    }
-    const double bend = (double)s.bend;
-    return variance + 0.25 * bend * bend;
+    const double bend = (double)s->bend;
+    job->errors[texel] = (float)(variance + 0.25 * bend * bend);
 }
 
-/// Pass 0 measures the traced texels of all passes, the others the interpolated ones of each.
-static alp_result measure_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static alp_result pool_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const error_job *job = user;
-    const alpi_lattice *l = job->lattice;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->state->task->order[i];
-        if (job->pass == 0) {
-            job->errors[t] =
-                l->states[t] == ALPI_TEXEL_TRACED ? (float)pool_variance(job, t) : 0.0f;
-        } else if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-                   alpi_lattice_pass(l->texels->pixels[t]) == job->pass) {
-            job->errors[t] = (float)stencil_variance(job, t);
-        }
+        const bool traced = job->lattice->states[t] == ALPI_TEXEL_TRACED;
+        job->errors[t] = traced ? (float)pool_variance(job, t) : 0.0f;
     }
     return ALP_OK;
 }
@@ -129,7 +118,7 @@ static alp_result measure_means(alpi_occlusion_state *state, error_job *job)
 {
     static_assert(2 * STATES <= (int)ALPI_SUM_LIMIT, "two sums for each state");
     double sums[ALPI_SUM_LIMIT];
-    ALP_TRY(alpi_occlusion_sum_texels(state, sum_variances, job, sums));
+    ALP_TRY(alpi_occlusion_sum_texels(&state->clock, sum_variances, job, sums));
     for (int s = 0; s < STATES; s++) {
         job->means[s] = sums[STATES + s] > 0.0 ? sums[s] / sums[STATES + s] : 0.0;
     }
@@ -138,7 +127,7 @@ static alp_result measure_means(alpi_occlusion_state *state, error_job *job)
 
 /// A variance, moved a part of the way to the mean of its state. Some twenty numbers per texel
 /// happen to be equal here and there, and a stated error of nearly 0 is wrong by many times.
-static double level_variance(const error_job *job, uint32_t texel)
+static double shrink_variance(const error_job *job, uint32_t texel)
 {
     const double mean = job->means[job->lattice->states[texel]];
     return (double)(float)(0.85 * (double)job->errors[texel] + 0.15 * mean);
@@ -161,7 +150,7 @@ static double find_factor(const error_job *job, alpi_texel_state state)
         const double x = (double)job->lattice->values[t];
         squares += (x - (double)alpi_occlusion_value(&h->sums[0], i)) *
                    (x - (double)alpi_occlusion_value(&h->sums[1], i));
-        expected += level_variance(job, t);
+        expected += shrink_variance(job, t);
         count++;
     }
     const bool enough = count >= LEAST_FOR_FACTOR && expected > 0.0 && squares > 0.01 * expected;
@@ -175,23 +164,24 @@ static alp_result take_roots(void *user, uint32_t begin, uint32_t end, uint32_t 
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->state->task->order[i];
         const double factor = job->factors[job->lattice->states[t]];
-        job->errors[t] = (float)sqrt(factor * level_variance(job, t));
+        job->errors[t] = (float)sqrt(factor * shrink_variance(job, t));
     }
     return ALP_OK;
 }
 
 static alp_result measure_texels(alpi_occlusion_state *state)
 {
-    error_job job = {
-        .state = state, .lattice = state->task->lattice, .errors = state->task->errors};
-    for (job.pass = 0; job.pass < ALPI_LATTICE_PASSES; job.pass++) { // each reads those before
-        ALP_TRY(alpi_occlusion_for_texels(state, measure_range, &job));
-    }
+    const alpi_occlusion_task *task = state->task;
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
+    error_job job = {.state = state, .lattice = task->lattice, .errors = task->errors};
+    ALP_TRY(alpi_occlusion_for_texels(&state->clock, pool_range, &job));
+    ALP_TRY(alpi_lattice_for_stencils(task->lattice, task->order, task->count, set_stencil_variance,
+                                      &job, &progress));
     ALP_TRY(measure_means(state, &job));
     for (int s = ALPI_TEXEL_TRACED; s <= ALPI_TEXEL_INTERPOLATED; s++) {
         job.factors[s] = find_factor(&job, (alpi_texel_state)s);
     }
-    return alpi_occlusion_for_texels(state, take_roots, &job);
+    return alpi_occlusion_for_texels(&state->clock, take_roots, &job);
 }
 
 // --- the stated error ----------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bake/occlusion/occlusion_held_out.h"
 
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_samples.h"
 #include "base/memory.h"
 #include "base/random.h"
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which texels of a round are traced, and which are interpolated between them (lattice.h).
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_lattice.h"
 
+#include "bake/occlusion/occlusion_error.h"
+#include "bake/occlusion/occlusion_samples.h"
 #include "maps/texels/validity.h"
 
 #include <math.h>
@@ -45,7 +47,7 @@ static alpi_lattice_judge start_interpolation(const alpi_occlusion_state *state)
     return (alpi_lattice_judge){.lattice = state->task->lattice,
                                 .order = state->task->order,
                                 .proximity = state->task->proximity,
-                                .wanted = state->marked,
+                                .marked = state->marked,
                                 .near_spread = NEAR_SPREAD,
                                 .near_bend = NEAR_BEND};
 }
@@ -57,41 +59,30 @@ static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, ui
     return ALP_OK;
 }
 
-/// Interpolates texels of a pass that are smooth, and marks the others.
-static alp_result interpolate(alpi_occlusion_state *state, alpi_lattice_judge *judge, uint32_t pass)
+/// Interpolates texels of a level that are smooth, and marks the others.
+static alp_result interpolate(alpi_occlusion_state *state, alpi_lattice_judge *judge,
+                              uint32_t level)
 {
-    judge->pass = pass;
-    return alpi_occlusion_for_texels(state, interpolate_range, judge);
+    judge->level = level;
+    return alpi_occlusion_for_texels(&state->clock, interpolate_range, judge);
 }
 
-static alp_result update_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static void update(void *user, uint32_t texel, const alpi_stencil *stencil)
 {
-    (void)worker;
-    const alpi_lattice_judge *judge = user;
-    alpi_lattice *l = judge->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = judge->order[i];
-        alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
-            alpi_lattice_pass(l->texels->pixels[t]) == judge->pass &&
-            alpi_lattice_stencil(l, t, &stencil)) {
-            l->values[t] = alpi_lattice_interpolate(l, &stencil);
-        }
-    }
-    return ALP_OK;
+    const alpi_lattice *lattice = user;
+    lattice->values[texel] = alpi_lattice_interpolate(lattice, stencil);
 }
 
-/// Interpolates again, as texels of some stencils were traced since. A stencil holds texels of
-/// coarser passes alone.
-static alp_result update_interpolated(alpi_occlusion_state *state, alpi_lattice_judge *judge)
+/// Interpolates again, as texels of some stencils were traced since.
+static alp_result update_interpolated(alpi_occlusion_state *state)
 {
-    for (judge->pass = 1; judge->pass < ALPI_LATTICE_PASSES; judge->pass++) {
-        ALP_TRY(alpi_occlusion_for_texels(state, update_range, judge));
-    }
-    return ALP_OK;
+    const alpi_occlusion_task *task = state->task;
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
+    return alpi_lattice_for_stencils(task->lattice, task->order, task->count, update, task->lattice,
+                                     &progress);
 }
 
-/// Limits of a pass that interpolates over `spacing` texels: by the noise, or Elias'
+/// Limits of a level that interpolates over `spacing` texels: by the noise, or Elias'
 /// accuracy^spacing for values in [0, 1], which limits differences alone.
 static void set_limits(alpi_lattice_judge *judge, float accuracy, float noise, float spacing)
 {
@@ -111,7 +102,7 @@ static alp_result trace_kinks(alpi_occlusion_state *state, alpi_lattice_judge *j
         ALP_TRY(alpi_occlusion_trace_marked(state, &count));
         traced += count;
     }
-    return traced > 0 ? update_interpolated(state, judge) : ALP_OK;
+    return traced > 0 ? update_interpolated(state) : ALP_OK;
 }
 
 alp_result alpi_occlusion_trace_lattice(alpi_occlusion_state *state)
@@ -120,12 +111,12 @@ alp_result alpi_occlusion_trace_lattice(alpi_occlusion_state *state)
     uint32_t count = 0;
     float noise = 0.0f;
     ALP_TRY(alpi_occlusion_mark(state, is_untraced_near));
-    ALP_TRY(interpolate(state, &judge, 0)); // marks all of pass 0: it has no stencils
+    ALP_TRY(interpolate(state, &judge, 0)); // marks all of level 0: it has no stencils
     ALP_TRY(alpi_occlusion_trace_marked(state, &count));
     ALP_TRY(alpi_occlusion_measure_noise(state, &noise, &count));
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        set_limits(&judge, state->task->accuracy, noise, 2.0f * (float)alpi_lattice_reach(pass));
-        ALP_TRY(interpolate(state, &judge, pass));
+    for (uint32_t level = 1; level < ALPI_LATTICE_LEVELS; level++) {
+        set_limits(&judge, state->task->accuracy, noise, 2.0f * (float)alpi_lattice_reach(level));
+        ALP_TRY(interpolate(state, &judge, level));
         ALP_TRY(alpi_occlusion_trace_marked(state, &count));
     }
     return trace_kinks(state, &judge);
@@ -143,8 +134,8 @@ alp_result alpi_occlusion_fill_gaps(alpi_occlusion_state *state)
     alpi_lattice_judge judge = start_interpolation(state);
     judge.spread = judge.bend = HUGE_VALF;
     memset(state->marked, 0, judge.lattice->texels->count);
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        ALP_TRY(interpolate(state, &judge, pass));
+    for (uint32_t level = 1; level < ALPI_LATTICE_LEVELS; level++) {
+        ALP_TRY(interpolate(state, &judge, level));
     }
     return ALP_OK;
 }

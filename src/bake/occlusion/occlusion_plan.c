@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How many rays the next round of occlusion takes.
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_plan.h"
 
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include <math.h>
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Progress of occlusion, its deadline, and whether the user cancels.
-#include "bake/occlusion/occlusion_state.h"
+// Progress of occlusion, its deadline, and whether the user cancels; loops over the texels of a
+// task.
+#include "bake/occlusion/occlusion_progress.h"
+
+enum { TEXELS_PER_RANGE = 1 << 12 };
 
 alpi_occlusion_clock alpi_occlusion_clock_start(const alpi_occlusion_task *task)
 {
@@ -54,4 +57,21 @@ alp_result alpi_occlusion_tick(alpi_occlusion_clock *clock)
         alpi_tick(clock->task->setup->context, "occlusion", clock->last.done, clock->last.total);
     clock->cancelled = clock->cancelled || result == ALP_ERROR_CANCELLED;
     return result;
+}
+
+// --- loops over the texels of the task -----------------------------------------------------------
+
+alp_result alpi_occlusion_for_texels(alpi_occlusion_clock *clock, alpi_task_fn *body, void *user)
+{
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(clock);
+    return alpi_parallel_for(clock->task->setup->context, clock->task->count, TEXELS_PER_RANGE,
+                             body, user, &progress);
+}
+
+alp_result alpi_occlusion_sum_texels(alpi_occlusion_clock *clock, alpi_sum_fn *body,
+                                     const void *user, double sums[ALPI_SUM_LIMIT])
+{
+    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(clock);
+    return alpi_parallel_sum(clock->task->setup->context, clock->task->count, body, user, &progress,
+                             sums);
 }

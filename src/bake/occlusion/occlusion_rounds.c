@@ -2,52 +2,14 @@
 // The rounds: trace, measure the error, plan the next round.
 #include "bake/occlusion/occlusion_rounds.h"
 
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_error.h"
+#include "bake/occlusion/occlusion_lattice.h"
+#include "bake/occlusion/occlusion_plan.h"
+#include "bake/occlusion/occlusion_samples.h"
 #include "base/memory.h"
 #include "maps/texels/bent.h"
 
 #include <math.h>
-
-enum { TEXELS_PER_RANGE = 1 << 12 };
-
-// --- loops over the texels of the task -----------------------------------------------------------
-
-alp_result alpi_occlusion_for_texels(alpi_occlusion_state *state, alpi_task_fn *body, void *user)
-{
-    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
-    return alpi_parallel_for(state->task->setup->context, state->task->count, TEXELS_PER_RANGE,
-                             body, user, &progress);
-}
-
-alp_result alpi_occlusion_sum_texels(alpi_occlusion_state *state, alpi_sum_fn *body,
-                                     const void *user, double sums[ALPI_SUM_LIMIT])
-{
-    const alpi_task_progress progress = alpi_occlusion_progress_of_texels(&state->clock);
-    return alpi_parallel_sum(state->task->setup->context, state->task->count, body, user, &progress,
-                             sums);
-}
-
-typedef struct mark_job {
-    const alpi_occlusion_state *state;
-    alpi_occlusion_rule *rule;
-} mark_job;
-
-static alp_result mark_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const mark_job *job = user;
-    const alpi_occlusion_task *task = job->state->task;
-    for (uint32_t i = begin; i < end; i++) {
-        job->state->marked[task->order[i]] = job->rule(task, task->order[i]);
-    }
-    return ALP_OK;
-}
-
-alp_result alpi_occlusion_mark(alpi_occlusion_state *state, alpi_occlusion_rule *rule)
-{
-    mark_job job = {state, rule};
-    return alpi_occlusion_for_texels(state, mark_range, &job);
-}
 
 // --- rounds --------------------------------------------------------------------------------------
 
@@ -94,7 +56,7 @@ static alp_result finish(alpi_occlusion_state *state, bool late)
     const alpi_occlusion_task *task = state->task;
     alpi_occlusion_report *report = state->report;
     double counts[ALPI_SUM_LIMIT];
-    ALP_TRY(alpi_occlusion_sum_texels(state, clamp_and_count, state, counts));
+    ALP_TRY(alpi_occlusion_sum_texels(&state->clock, clamp_and_count, state, counts));
     report->traced = (uint64_t)counts[ALPI_TEXEL_TRACED];
     report->interpolated = (uint64_t)counts[ALPI_TEXEL_INTERPOLATED];
     report->unknown = (uint64_t)counts[ALPI_TEXEL_OPEN];
@@ -128,18 +90,13 @@ static alp_result run(alpi_occlusion_state *state)
 alp_result alpi_occlusion_rounds(const alpi_occlusion_task *task, alpi_occlusion_report *report)
 {
     alp_context *context = task->setup->context;
-    alpi_scratch own = {0};
     alpi_occlusion_state state = {.task = task,
                                   .report = report,
                                   .clock = alpi_occlusion_clock_start(task),
-                                  .scratch = task->scratch != NULL ? task->scratch : &own};
+                                  .scratch = task->scratch};
     *report = (alpi_occlusion_report){.relative = (double)NAN, .p99 = (double)NAN};
-    if (task->scratch == NULL) {
-        ALP_TRY(alpi_scratch_create(context, task->receivers->count, task->setup->bent, &own));
-    }
     const alp_result result = run(&state);
     alpi_occlusion_held_out_destroy(&state.held_out);
-    alpi_scratch_destroy(&own);
     alpi_chart_deal_close(&state.deal);
     alpi_release(context, state.list);
     return result;

@@ -20,11 +20,11 @@ typedef struct alpi_occlusion_task {
     alpi_lattice *lattice;    // values and states of the texels in `order`: out
     float *errors;            // [texels] standard error of those in `order`: out
     float (*bent)[3];         // [texels] bent normals of those in `order`: out; or NULL
-    alpi_scratch *scratch; // [texels] zero for those in `order`, not so after; NULL: makes its own
-    float accuracy;        // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
-    float error;           // wanted relative error; 0: all samples of the setup
-    double deadline;       // in alpi_seconds(), HUGE_VAL = none
-    bool keep_partial;     // a bake that the user cancels keeps the values it has
+    alpi_scratch *scratch;    // [texels] zero for those in `order`, not so after
+    float accuracy;           // ALP_ADAPTIVE_OFF, ALP_ADAPTIVE_AUTO, or in (0, 1)
+    float error;              // wanted relative error; 0: all samples of the setup
+    double deadline;          // in alpi_seconds(), HUGE_VAL = none
+    bool keep_partial;        // a bake that the user cancels keeps the values it has
     alp_progress_fn *progress;
     void *progress_user;
 } alpi_occlusion_task;

@@ -1,9 +1,31 @@
 // SPDX-License-Identifier: MIT
-// Rays of a round: lists the texels to trace chart by chart, traces their samples, and stores the
-// values.
-#include "bake/occlusion/occlusion_state.h"
+// Rays of a round: marks texels, lists the marked ones chart by chart, traces their samples, and
+// stores the values.
+#include "bake/occlusion/occlusion_samples.h"
 
 enum { TEXELS_PER_RANGE = 1 << 12, TEXELS_PER_TICK = 1 << 16 };
+
+typedef struct mark_job {
+    const alpi_occlusion_state *state;
+    alpi_occlusion_rule *rule;
+} mark_job;
+
+static alp_result mark_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const mark_job *job = user;
+    const alpi_occlusion_task *task = job->state->task;
+    for (uint32_t i = begin; i < end; i++) {
+        job->state->marked[task->order[i]] = job->rule(task, task->order[i]);
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_occlusion_mark(alpi_occlusion_state *state, alpi_occlusion_rule *rule)
+{
+    mark_job job = {state, rule};
+    return alpi_occlusion_for_texels(&state->clock, mark_range, &job);
+}
 
 /// Moves the marked texels to state->list, chart by chart, each chart in the order of the task.
 static alp_result list_marked(alpi_occlusion_state *state, uint32_t *count)
@@ -18,7 +40,7 @@ static alp_result list_marked(alpi_occlusion_state *state, uint32_t *count)
                                                            : ALP_OK);
     }
     *count = alpi_chart_deal_start(&state->deal);
-    for (uint32_t i = 0; i<task->count && * count> 0; i++) {
+    for (uint32_t i = 0; *count > 0 && i < task->count; i++) {
         const uint32_t t = task->order[i];
         if (state->marked[t] != 0) {
             state->marked[t] = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bytes → COLLADA document: archive, encoding, the limits of the scan, then libxml2.
+// Bytes → COLLADA document: archive, encoding, the limits of the scan, then libxml2. Spans of the
+// scan and elements of the tree are matched here.
 #include "formats/collada/collada_document.h"
 
 #include "base/file.h"
@@ -8,13 +9,10 @@
 #include "formats/files/outside.h"
 #include "formats/text/utf16.h"
 
-#include <libxml/parser.h>
-#include <libxml/parserInternals.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
-// --- archive and encoding ------------------------------------------------------------------------
+// --- archive -------------------------------------------------------------------------------------
 
 /// The document of an archive: what its manifest names, else its first .dae.
 static alp_result find_archived(alpi_collada_document *d, char **name)
@@ -70,129 +68,7 @@ static alp_result read_archive(alpi_collada_document *d)
     return result;
 }
 
-/// UTF-16 is known by its mark, or by the zero beside the first "<".
-static alp_result find_encoding(alpi_collada_document *d)
-{
-    const uint8_t *bytes = (const uint8_t *)d->text;
-    const size_t size = d->text_size;
-    if (size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0) {
-        d->has_mark = true;
-        d->text += 3;
-        d->text_size -= 3;
-        return ALP_OK;
-    }
-    const bool little =
-        size >= 4 && ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == '<' && bytes[1] == 0));
-    const bool big =
-        size >= 4 && ((bytes[0] == 0xfe && bytes[1] == 0xff) || (bytes[0] == 0 && bytes[1] == '<'));
-    if (!little && !big) {
-        return ALP_OK;
-    }
-    d->encoding = little ? ALPI_XML_UTF16_LE : ALPI_XML_UTF16_BE;
-    d->has_mark = bytes[0] >= 0xfe;
-    const size_t skip = d->has_mark ? 2 : 0;
-    uint8_t *text = NULL;
-    alp_result result =
-        alpi_utf16_decode(d->context, bytes + skip, size - skip, big, &text, &d->text_size);
-    alpi_release(d->context, d->owned_text);
-    d->owned_text = text;
-    d->text = (const char *)text;
-    return result;
-}
-
-/// Encodings in which the bytes of "<", ">" and quotes stand for nothing else: only there do the
-/// places of elements in the bytes mean what they mean to the parser.
-static bool encoding_is_known(const char *name, size_t length)
-{
-    static const char *const known[] = {
-        "utf-8", "us-ascii", "ascii",  "iso-8859-", "latin",   "windows-12", "cp12",  "shift_jis",
-        "sjis",  "euc-",     "gb2312", "gbk",       "gb18030", "big5",       "koi8-", "utf8"};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        if (length >= strlen(known[i]) && strncasecmp(name, known[i], strlen(known[i])) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static alp_result check_encoding(const alpi_collada_document *d)
-{
-    size_t head = d->text_size < 200 ? d->text_size : 200;
-    const char *end = memchr(d->text, '>', head);
-    if (d->encoding != ALPI_XML_BYTES || end == NULL || strncmp(d->text, "<?xml", 5) != 0) {
-        return ALP_OK;
-    }
-    char declaration[201];
-    snprintf(declaration, sizeof declaration, "%.*s", (int)(end - d->text), d->text);
-    const char *name = strstr(declaration, "encoding");
-    name = name != NULL ? strpbrk(name, "\"'") : NULL;
-    if (name == NULL) {
-        return ALP_OK;
-    }
-    const size_t length = strcspn(name + 1, "\"'");
-    return encoding_is_known(name + 1, length)
-               ? ALP_OK
-               : alpi_fail(d->context, ALP_ERROR_UNSUPPORTED,
-                           "%s: the encoding \"%.*s\" is not read; save it as UTF-8", d->path,
-                           (int)length, name + 1);
-}
-
-// --- the parser ----------------------------------------------------------------------------------
-
-/// A declared entity could expand without end: the scan refuses them, and here is the second lock.
-static void refuse_entity(void *parser, const xmlChar *name, int type, const xmlChar *public_id,
-                          const xmlChar *system_id, xmlChar *content)
-{
-    (void)name, (void)type, (void)public_id, (void)system_id, (void)content;
-    xmlStopParser(parser);
-}
-
-/// The first fault is the one to tell of. What follows it would be told of too, one by one, and an
-/// unclosed comment of a megabyte has a fault in every "--" that takes as long as all before it.
-static void stop_at_fault(void *parser, xmlError *error)
-{
-    if (error->level == XML_ERR_FATAL) {
-        xmlStopParser(parser);
-    }
-}
-
-static alp_result fail_parse(const alpi_collada_document *d, xmlParserCtxt *parser)
-{
-    const xmlError *error = xmlCtxtGetLastError(parser);
-    if (error == NULL || error->message == NULL) {
-        return alpi_fail(d->context, ALP_ERROR_INVALID_DATA, "%s: is no XML", d->path);
-    }
-    if (error->code == XML_ERR_NO_MEMORY) {
-        return alpi_fail(d->context, ALP_ERROR_OUT_OF_MEMORY, "%s: no memory for its XML tree",
-                         d->path);
-    }
-    char reason[200];
-    snprintf(reason, sizeof reason, "%s", error->message);
-    reason[strcspn(reason, "\r\n")] = '\0';
-    return alpi_fail(d->context, ALP_ERROR_INVALID_DATA,
-                     "%s: XML, line %d column %d: %s; it may be truncated or damaged", d->path,
-                     error->line, error->int2, reason);
-}
-
-static alp_result parse_text(alpi_collada_document *d)
-{
-    xmlParserCtxt *parser = xmlNewParserCtxt();
-    if (parser == NULL) {
-        return alpi_fail(d->context, ALP_ERROR_OUT_OF_MEMORY, "%s: no memory for the XML parser",
-                         d->path);
-    }
-    parser->sax->entityDecl = refuse_entity;
-    parser->sax->serror = stop_at_fault;
-    // Not XML_PARSE_NOENT, DTDLOAD or XINCLUDE: nothing is expanded, nothing else is opened. HUGE
-    // lifts limits that real arrays pass; the scan has set ours.
-    const int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_HUGE |
-                        XML_PARSE_NOBLANKS | XML_PARSE_COMPACT;
-    const char *encoding = d->encoding == ALPI_XML_BYTES && !d->has_mark ? NULL : "UTF-8";
-    d->tree = xmlCtxtReadMemory(parser, d->text, (int)d->text_size, NULL, encoding, options);
-    alp_result result = d->tree != NULL ? ALP_OK : fail_parse(d, parser);
-    xmlFreeParserCtxt(parser);
-    return result;
-}
+// --- elements ------------------------------------------------------------------------------------
 
 /// The element after `node` in the order of the text.
 static xmlNode *element_after(xmlNode *node)
@@ -281,7 +157,7 @@ static alp_result fill_document(alpi_collada_document *d, const char *path)
     if (alpi_archive_is(d->file_bytes, d->file_size)) {
         ALP_TRY(read_archive(d));
     }
-    ALP_TRY(find_encoding(d));
+    ALP_TRY(alpi_collada_find_text(d));
     if (d->text_size > ALPI_COLLADA_TEXT_LIMIT) {
         return alpi_fail(d->context, ALP_ERROR_LIMIT, "%s: %zu bytes of XML, the limit is %llu",
                          path, d->text_size, (unsigned long long)ALPI_COLLADA_TEXT_LIMIT);
@@ -289,11 +165,11 @@ static alp_result fill_document(alpi_collada_document *d, const char *path)
     if (d->text_size == 0) {
         return alpi_fail(d->context, ALP_ERROR_INVALID_DATA, "%s: the file is empty", path);
     }
-    ALP_TRY(check_encoding(d));
     bool whole = false;
+    ALP_TRY(alpi_collada_check_encoding(d));
     ALP_TRY(count_lines(d));
     ALP_TRY(alpi_collada_scan(d, &whole));
-    ALP_TRY(parse_text(d));
+    ALP_TRY(alpi_collada_parse_text(d));
     if (!whole) {
         return alpi_fail(d->context, ALP_ERROR_INVALID_DATA,
                          "%s: its tags cannot be followed; save it as UTF-8", path);

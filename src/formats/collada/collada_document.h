@@ -26,6 +26,12 @@ typedef struct alpi_xml_span {
     size_t end;         // behind it
 } alpi_xml_span;
 
+/// Characters of a text, not ended by a zero.
+typedef struct alpi_xml_word {
+    const char *text;
+    size_t size;
+} alpi_xml_word;
+
 typedef enum alpi_xml_encoding {
     ALPI_XML_BYTES, // UTF-8, or what agrees with ASCII on < and >
     ALPI_XML_UTF16_LE,
@@ -45,6 +51,7 @@ typedef struct alpi_collada_document {
     size_t text_size;
     alpi_xml_encoding encoding;
     bool has_mark;
+    bool is_utf8; // the text is, whatever its declaration says
     xmlDoc *tree;
     xmlNode *root;
     uint32_t element_count;
@@ -85,6 +92,20 @@ alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity
 /// DTD inside is refused. What is not well-formed is left to the parser: *whole is false.
 alp_result alpi_collada_scan(alpi_collada_document *document, bool *whole);
 
+// --- collada_encoding.c --------------------------------------------------------------------------
+
+/// Finds the XML text in the bytes of the file: without a mark, and in UTF-8 where it was UTF-16.
+alp_result alpi_collada_find_text(alpi_collada_document *document);
+/// Checks the encoding that the text states, and mends bytes of Latin-1 in UTF-8.
+/// @return ALP_OK; UNSUPPORTED (an encoding that is not read); OUT_OF_MEMORY
+alp_result alpi_collada_check_encoding(alpi_collada_document *document);
+
+// --- collada_parse.c -----------------------------------------------------------------------------
+
+/// Makes the tree of the text.
+/// @return ALP_OK; INVALID_DATA (line, column and the first cause); OUT_OF_MEMORY
+alp_result alpi_collada_parse_text(alpi_collada_document *document);
+
 // --- collada_tree.c: asking the tree -------------------------------------------------------------
 
 /// An element's place in `elements`.
@@ -114,7 +135,10 @@ xmlNode *alpi_collada_find(const alpi_collada_document *document, const char *id
 /// <bind_vertex_input>; the first where there are several, NULL where there is none.
 xmlNode *alpi_collada_bound_to(const alpi_collada_document *document, const xmlNode *owner,
                                const char *name);
-/// What an attribute such as url="#id" refers to. INVALID_DATA where the attribute is missing or
+/// What an attribute such as url="#id" refers to, whatever it is; NULL where that is not there.
+xmlNode *alpi_collada_target(const alpi_collada_document *document, const xmlNode *node,
+                             const char *attribute);
+/// The same, of one kind. INVALID_DATA where the attribute is missing or
 /// nothing has that id, or it is no `name`. NULL in *target with ALP_OK: it names another file.
 alp_result alpi_collada_resolve(const alpi_collada_document *document, const xmlNode *node,
                                 const char *attribute, const char *name, xmlNode **target);

@@ -21,7 +21,7 @@ typedef struct ring {
 typedef struct work {
     alpi_collada_reader *reader;
     xmlNode *element;
-    const alpi_collada_inputs *inputs;
+    alpi_collada_inputs *inputs;
     alpi_collada_faces *faces;
     size_t index_count, index_capacity, triangle_capacity, polygon_capacity;
     ring *rings;
@@ -159,6 +159,11 @@ static alp_result check_indices(const work *w)
         const uint32_t count = w->reader->sources[w->inputs->source[k]].count;
         const uint32_t *index = w->faces->indices + w->inputs->offset[k];
         for (uint32_t c = 0; c < w->faces->corner_count; c++, index += w->inputs->stride) {
+            if (*index >= count && (k == ALPI_COLLADA_NORMAL || k == ALPI_COLLADA_COLOR)) {
+                w->inputs->source[k] = ALPI_NONE;
+                w->inputs->bad = w->inputs->bad != NULL ? w->inputs->bad : w->element;
+                break;
+            }
             if (*index >= count) {
                 return alpi_collada_fail(
                     w->reader->document, w->element, "corner %u uses %s %u, there are %u", c,
@@ -285,7 +290,7 @@ static alp_result make_triangles(work *w, face_kind kind)
 }
 
 alp_result alpi_collada_read_faces(alpi_collada_reader *reader, xmlNode *element,
-                                   const alpi_collada_inputs *inputs, alpi_collada_faces *faces)
+                                   alpi_collada_inputs *inputs, alpi_collada_faces *faces)
 {
     *faces = (alpi_collada_faces){0};
     work w = {.reader = reader, .element = element, .inputs = inputs, .faces = faces};

@@ -198,14 +198,22 @@ alp_result alpi_collada_read_fixtures(alpi_collada_reader *reader)
     ALPI_TRY_NEW(reader->context, scene->cameras, reader->fixture_count);
     for (uint32_t i = 0; i < reader->fixture_count; i++) {
         const alpi_collada_fixture *at = &reader->fixtures[i];
+        char reason[ALPI_COLLADA_REASON_SIZE];
         bool usable = false;
-        if (alpi_xml_is(at->target, "light")) {
-            ALP_TRY(read_light(reader, at, distance, &scene->lights[scene->light_count], &usable));
-            scene->light_count += usable;
-        } else {
-            ALP_TRY(read_camera(reader, at, &scene->cameras[scene->camera_count], &usable));
-            scene->camera_count += usable;
+        const bool is_light = alpi_xml_is(at->target, "light");
+        alp_result result =
+            is_light ? read_light(reader, at, distance, &scene->lights[scene->light_count], &usable)
+                     : read_camera(reader, at, &scene->cameras[scene->camera_count], &usable);
+        if (alpi_collada_survives(reader->document, &result, reason)) {
+            usable = false;
+            if (reader->bad_fixtures++ < ALPI_COLLADA_TOLD_LIMIT) {
+                alpi_warn(reader->context, "bad-fixture", reader->document->path,
+                          "%s; the light or camera is left out", reason);
+            }
         }
+        ALP_TRY(result);
+        scene->light_count += usable && is_light;
+        scene->camera_count += usable && !is_light;
     }
     return ALP_OK;
 }

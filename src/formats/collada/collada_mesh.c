@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Geometry → meshes in the file's own space: sources, inputs, and the different corners of each
-// primitive as vertices.
+// Geometry → meshes in the file's own space: inputs, and the different corners of each primitive as
+// vertices.
 #include "formats/collada/collada_read.h"
 
 #include "base/hash.h"
@@ -10,129 +10,6 @@
 #include <string.h>
 
 enum { STRIDE_LIMIT = 256, INPUT_LIMIT = 64 };
-
-// --- sources -------------------------------------------------------------------------------------
-
-/// Which numbers of an element are its components: those whose <param> has a name.
-static void read_params(const xmlNode *accessor, alpi_collada_source *source)
-{
-    uint32_t place = 0;
-    const xmlNode *param = alpi_xml_child(accessor, "param");
-    for (; param != NULL; param = alpi_xml_next(param, "param"), place++) {
-        const char *name = alpi_xml_attribute(param, "name");
-        if (name != NULL && name[0] != '\0' && source->components < 4 && place < source->stride) {
-            source->place[source->components++] = place;
-        }
-    }
-    while (source->components == 0 || (place == 0 && source->components < source->stride &&
-                                       source->components < 4)) { // no names at all: in order
-        source->place[source->components] = source->components;
-        source->components++;
-    }
-}
-
-static alp_result read_accessor(const alpi_collada_reader *reader, const xmlNode *element,
-                                alpi_collada_source *source, xmlNode **array)
-{
-    static const char *const way[] = {"technique_common", "accessor", NULL};
-    const alpi_collada_document *document = reader->document;
-    const xmlNode *accessor = alpi_xml_descend(element, way);
-    *array = NULL;
-    if (accessor == NULL) {
-        return alpi_collada_fail(document, element, "has no <technique_common> with <accessor>");
-    }
-    ALP_TRY(alpi_collada_count(document, accessor, "stride", 1, 1 << 20, &source->stride));
-    ALP_TRY(alpi_collada_count(document, accessor, "offset", 0, ALPI_NONE - 1, &source->first));
-    ALP_TRY(alpi_collada_count(document, accessor, "count", 0, ALPI_NONE - 1, &source->count));
-    if (source->stride == 0) {
-        return alpi_collada_fail(document, accessor, "its stride is 0");
-    }
-    read_params(accessor, source);
-    const char *url = alpi_xml_attribute(accessor, "source");
-    if (url == NULL || alpi_collada_find(document, url[0] == '#' ? url + 1 : url) == NULL) {
-        *array = alpi_xml_child(element, "float_array"); // as some exporters leave it
-        if (*array != NULL) {
-            return ALP_OK;
-        }
-    }
-    return alpi_collada_resolve(document, accessor, "source", "float_array", array);
-}
-
-/// Elements that the array really holds; one that is short leaves the last ones out.
-static void limit_count(alpi_collada_source *source, size_t value_count)
-{
-    uint32_t last = 0;
-    for (uint32_t k = 0; k < source->components; k++) {
-        last = source->place[k] > last ? source->place[k] : last;
-    }
-    const size_t needed = (size_t)source->first + last + 1;
-    const size_t held = value_count < needed ? 0 : (value_count - needed) / source->stride + 1;
-    source->count = held < source->count ? (uint32_t)held : source->count;
-}
-
-/// A <float_array>, read at its first use: many sources may name one.
-static alp_result read_array(alpi_collada_reader *reader, xmlNode *element,
-                             const alpi_collada_array **array)
-{
-    uint32_t *slot = &reader->slots[alpi_xml_index(element)];
-    if (*slot == 0) {
-        ALP_TRY(alpi_collada_grow(reader->context, &reader->arrays, &reader->array_capacity,
-                                  reader->array_count + 1, sizeof *reader->arrays));
-        alpi_collada_array *made = &reader->arrays[reader->array_count++];
-        *made = (alpi_collada_array){.element =
-                                         element}; // released with the reader, also after a failure
-        ALP_TRY(alpi_collada_floats(reader->document, element, &made->values, &made->count));
-        *slot = reader->array_count;
-    }
-    *array = &reader->arrays[*slot - 1];
-    return ALP_OK;
-}
-
-alp_result alpi_collada_exact_values(alpi_collada_reader *reader, const alpi_collada_source *source,
-                                     const double **values)
-{
-    alpi_collada_array *array = &reader->arrays[source->array];
-    if (array->exact == NULL) {
-        ALP_TRY(alpi_collada_exact(reader->document, array->element, &array->exact, &array->count));
-    }
-    *values = array->exact;
-    return ALP_OK;
-}
-
-/// A <source>, read at its first use.
-static alp_result read_source(alpi_collada_reader *reader, xmlNode *element, uint32_t *index)
-{
-    uint32_t *slot = &reader->slots[alpi_xml_index(element)];
-    if (*slot != 0) {
-        *index = *slot - 1;
-        return ALP_OK;
-    }
-    ALP_TRY(alpi_collada_grow(reader->context, &reader->sources, &reader->source_capacity,
-                              reader->source_count + 1, sizeof *reader->sources));
-    alpi_collada_source *source = &reader->sources[reader->source_count];
-    *source = (alpi_collada_source){0};
-    xmlNode *array = NULL;
-    ALP_TRY(read_accessor(reader, element, source, &array));
-    if (array == NULL) {
-        return alpi_collada_fail(reader->document, element, "has no <float_array>");
-    }
-    const alpi_collada_array *values = NULL;
-    ALP_TRY(read_array(reader, array, &values));
-    *index = reader->source_count++;
-    source->array = (uint32_t)(values - reader->arrays);
-    source->values = values->values; // stays where it is when the list of arrays grows
-    const uint32_t stated = source->count;
-    limit_count(source, values->count);
-    if (source->count < stated) {
-        char owner[ALPI_COLLADA_OWNER_SIZE];
-        alpi_collada_owner(reader->document, element, owner);
-        alpi_warn(reader->context, "short-array", owner,
-                  "its array holds %u of the %u elements that the accessor states", source->count,
-                  stated);
-    }
-    *slot = *index + 1;
-    return ALP_OK;
-}
 
 // --- inputs --------------------------------------------------------------------------------------
 
@@ -163,7 +40,21 @@ static void add_uv(alpi_collada_inputs *inputs, uint32_t number, uint32_t source
     inputs->uv_count += !full;
 }
 
-/// An <input> that names a <source>.
+/// The source of an <input>, and the number of its set.
+static alp_result read_input(alpi_collada_reader *reader, const xmlNode *input, uint32_t *source,
+                             uint32_t *set)
+{
+    xmlNode *element = NULL;
+    ALP_TRY(alpi_collada_resolve(reader->document, input, "source", "source", &element));
+    if (element == NULL) {
+        return alpi_collada_fail(reader->document, input, "its source lies in another document");
+    }
+    ALP_TRY(alpi_collada_read_source(reader, element, source));
+    return alpi_collada_count(reader->document, input, "set", 0, 1 << 20, set);
+}
+
+/// An <input> that names a <source>. Without positions there is no mesh; one of others that cannot
+/// be read is left out.
 static alp_result add_input(alpi_collada_reader *reader, const xmlNode *input, uint32_t offset,
                             alpi_collada_inputs *inputs)
 {
@@ -176,14 +67,13 @@ static alp_result add_input(alpi_collada_reader *reader, const xmlNode *input, u
     if (key == 4 || (key != ALPI_COLLADA_UV && inputs->source[key] != ALPI_NONE)) {
         return ALP_OK; // tangents and the like; a second set of colours
     }
-    xmlNode *element = NULL;
     uint32_t source = 0, set = 0;
-    ALP_TRY(alpi_collada_resolve(reader->document, input, "source", "source", &element));
-    if (element == NULL) {
-        return alpi_collada_fail(reader->document, input, "its source lies in another document");
+    const alp_result result = read_input(reader, input, &source, &set);
+    if (result == ALP_ERROR_INVALID_DATA && key != ALPI_COLLADA_POSITION) {
+        inputs->bad = inputs->bad != NULL ? inputs->bad : input;
+        return ALP_OK;
     }
-    ALP_TRY(read_source(reader, element, &source));
-    ALP_TRY(alpi_collada_count(reader->document, input, "set", 0, 1 << 20, &set));
+    ALP_TRY(result);
     if (key == ALPI_COLLADA_UV) {
         add_uv(inputs, set, source, offset);
     } else {
@@ -294,6 +184,15 @@ static void tell_oddities(const alpi_collada_reader *reader, const alpi_collada_
                           const alpi_collada_faces *faces)
 {
     char owner[ALPI_COLLADA_OWNER_SIZE];
+    if (part->inputs.bad != NULL) {
+        const char *semantic = alpi_xml_attribute(part->inputs.bad, "semantic");
+        alpi_collada_owner(reader->document, part->inputs.bad, owner);
+        alpi_warn(reader->context, "bad-input", owner,
+                  semantic != NULL
+                      ? "its source is not there or cannot be read: the primitive has no %.20s"
+                      : "its normals or colours are left out: indices lie outside of them%.0s",
+                  semantic != NULL ? semantic : "");
+    }
     if (faces->untidy + faces->dropped + part->inputs.uv_left_out == 0) {
         return;
     }
@@ -335,13 +234,35 @@ static alp_result read_part(alpi_collada_reader *reader, alpi_collada_part *part
     return result;
 }
 
+/// A primitive that cannot be read keeps its place without a triangle.
+static alp_result read_part_or_none(alpi_collada_reader *reader, alpi_collada_part *part, bool *bad)
+{
+    char reason[ALPI_COLLADA_REASON_SIZE];
+    alp_result result = read_part(reader, part);
+    if (alpi_collada_survives(reader->document, &result, reason)) {
+        if (reader->bad_parts++ < ALPI_COLLADA_TOLD_LIMIT) {
+            alpi_warn(reader->context, "bad-faces", reader->document->path,
+                      "%s; the primitive is left out", reason);
+        }
+        part->inputs = (alpi_collada_inputs){.most_uv_number = ALPI_NONE};
+        memset(part->inputs.source, 0xff, sizeof part->inputs.source); // none
+        part->vertex_count = part->triangle_count = 0;
+        *bad = true;
+    }
+    return result;
+}
+
 static alp_result read_parts(alpi_collada_reader *reader, alpi_collada_mesh *mesh,
                              const xmlNode *element)
 {
     uint32_t count = 0;
+    uint64_t triangles = 0;
+    bool other = false; // lines, or a primitive that is told of
     for (const xmlNode *e = alpi_xml_child(element, NULL); e != NULL; e = alpi_xml_next(e, NULL)) {
+        const bool lines = alpi_xml_is(e, "lines") || alpi_xml_is(e, "linestrips");
         count += alpi_collada_is_primitive(e);
-        reader->not_triangles += alpi_xml_is(e, "lines") || alpi_xml_is(e, "linestrips");
+        reader->not_triangles += lines;
+        other |= lines;
     }
     ALPI_TRY_NEW(reader->context, mesh->parts, count);
     for (xmlNode *e = alpi_xml_child(element, NULL); e != NULL; e = alpi_xml_next(e, NULL)) {
@@ -350,8 +271,12 @@ static alp_result read_parts(alpi_collada_reader *reader, alpi_collada_mesh *mes
             part->element = e;
             part->primitive = mesh->part_count++;
             part->symbol = alpi_xml_attribute(e, "material");
-            ALP_TRY(read_part(reader, part));
+            ALP_TRY(read_part_or_none(reader, part, &other));
+            triangles += part->triangle_count;
         }
+    }
+    if (triangles == 0 && !other) { // else that is told
+        reader->first_empty = reader->empty++ == 0 ? mesh->geometry : reader->first_empty;
     }
     return ALP_OK;
 }
@@ -372,7 +297,11 @@ alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry
     }
     ALP_TRY(alpi_collada_grow(reader->context, &reader->meshes, &reader->mesh_capacity,
                               reader->mesh_count + 1, sizeof *reader->meshes));
-    alpi_collada_mesh made = {.geometry = geometry, .index = reader->mesh_count};
+    alpi_collada_mesh made = {.geometry = geometry,
+                              .double_sided =
+                                  alpi_collada_is_double_sided(geometry) ||
+                                  alpi_collada_is_double_sided(alpi_xml_child(geometry, "mesh")),
+                              .index = reader->mesh_count};
     alp_result result = read_parts(reader, &made, element);
     reader->meshes[reader->mesh_count++] = made; // released with the reader, also after a failure
     *slot = reader->mesh_count;

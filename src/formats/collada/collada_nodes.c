@@ -69,14 +69,15 @@ static alp_result place_controlled(alpi_collada_reader *reader, xmlNode *instanc
     const alpi_collada_document *document = reader->document;
     mat4 matrix = at->matrix;
     xmlNode *controller = NULL;
-    ALP_TRY(alpi_collada_resolve(document, instance, "url", "controller", &controller));
+    ALP_TRY(alpi_collada_refer(reader, instance, "url", "controller", &controller));
     for (int i = 0; controller != NULL && i < CHAIN_LIMIT; i++) {
         const xmlNode *skin = alpi_xml_child(controller, "skin");
         const xmlNode *morph = alpi_xml_child(controller, "morph");
         const xmlNode *kind = skin != NULL ? skin : morph;
         const xmlNode *bind = alpi_xml_child(skin, "bind_shape_matrix");
         if (kind == NULL) {
-            return alpi_collada_fail(document, controller, "has neither <skin> nor <morph>");
+            reader->not_meshes++;
+            return ALP_OK;
         }
         reader->skinned += skin != NULL;
         reader->morphed += skin == NULL;
@@ -89,12 +90,13 @@ static alp_result place_controlled(alpi_collada_reader *reader, xmlNode *instanc
             }
             matrix = mat4_multiply(&matrix, &shape);
         }
-        const char *url = alpi_xml_attribute(kind, "source");
-        xmlNode *target = alpi_collada_find(document, url != NULL && *url == '#' ? url + 1 : url);
+        xmlNode *target = alpi_collada_target(document, kind, "source");
         if (alpi_xml_is(target, "geometry")) {
             return place(reader, instance, at, target, &matrix);
         }
-        ALP_TRY(alpi_collada_resolve(document, kind, "source", "controller", &controller));
+        const bool chained = alpi_xml_is(target, "controller");
+        ALP_TRY(alpi_collada_refer(reader, kind, "source", chained ? "controller" : "geometry",
+                                   &controller));
     }
     return controller == NULL ? ALP_OK
                               : alpi_collada_fail(document, instance,
@@ -106,7 +108,7 @@ static alp_result add_fixture(alpi_collada_reader *reader, xmlNode *instance, co
                               const char *kind)
 {
     xmlNode *target = NULL;
-    ALP_TRY(alpi_collada_resolve(reader->document, instance, "url", kind, &target));
+    ALP_TRY(alpi_collada_refer(reader, instance, "url", kind, &target));
     if (target == NULL) {
         return ALP_OK;
     }
@@ -133,12 +135,12 @@ static alp_result visit(walk *w, xmlNode *child, frame *at)
         return enter(w, child, at->matrix, at->outer);
     }
     if (alpi_xml_is(child, "instance_node")) {
-        ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "node", &target));
+        ALP_TRY(alpi_collada_refer(reader, child, "url", "node", &target));
         xmlNode *outer = at->outer != NULL ? at->outer : child;
         return target != NULL ? enter(w, target, at->matrix, outer) : ALP_OK;
     }
     if (alpi_xml_is(child, "instance_geometry")) {
-        ALP_TRY(alpi_collada_resolve(reader->document, child, "url", "geometry", &target));
+        ALP_TRY(alpi_collada_refer(reader, child, "url", "geometry", &target));
         return target != NULL ? place(reader, child, at, target, &at->matrix) : ALP_OK;
     }
     if (alpi_xml_is(child, "instance_controller")) {
@@ -185,15 +187,6 @@ typedef struct survey {
     uint64_t looked; // this pass itself
 } survey;
 
-/// What a reference leads to, without a word about it: the walk will say what is wrong with it.
-static xmlNode *target_of(const alpi_collada_document *document, const xmlNode *node,
-                          const char *attribute)
-{
-    const char *url = alpi_xml_attribute(node, attribute);
-    url = url != NULL ? url + strspn(url, " \t\r\n") : "";
-    return alpi_collada_find(document, url[0] == '#' ? url + 1 : url);
-}
-
 static uint64_t weight_of(const alpi_collada_document *document, const xmlNode *element)
 {
     const alpi_xml_span *span = &document->spans[alpi_xml_index(element)];
@@ -222,7 +215,7 @@ static void add_leaf(survey *s, const xmlNode *child, extent *sum)
 {
     uint64_t visits = weight_of(s->document, child);
     if (alpi_xml_is(child, "instance_controller")) {
-        const xmlNode *controller = target_of(s->document, child, "url");
+        const xmlNode *controller = alpi_collada_target(s->document, child, "url");
         for (int i = 0; alpi_xml_is(controller, "controller") && i < CHAIN_LIMIT; i++) {
             visits += elements_in(s->document, controller);
             if (s->looked + visits > VISIT_LIMIT) {
@@ -231,7 +224,7 @@ static void add_leaf(survey *s, const xmlNode *child, extent *sum)
             const xmlNode *skin = alpi_xml_child(controller, "skin");
             const xmlNode *bind = alpi_xml_child(skin, "bind_shape_matrix");
             visits += bind != NULL ? weight_of(s->document, bind) : 0;
-            controller = target_of(
+            controller = alpi_collada_target(
                 s->document, skin != NULL ? skin : alpi_xml_child(controller, "morph"), "source");
         }
     }
@@ -280,8 +273,9 @@ static alp_result survey_from(survey *s, const alpi_collada_reader *reader, xmlN
             s->depth--;
             continue;
         }
-        xmlNode *node =
-            alpi_xml_is(child, "instance_node") ? target_of(s->document, child, "url") : child;
+        xmlNode *node = alpi_xml_is(child, "instance_node")
+                            ? alpi_collada_target(s->document, child, "url")
+                            : child;
         const extent *below = alpi_xml_is(node, "node") ? &s->extents[alpi_xml_index(node)] : NULL;
         if (below != NULL && !below->known) { // comes again when it is
             ALP_TRY(open_node(s, reader, node));

@@ -54,6 +54,7 @@ static void destroy_origin(alp_context *context, void *data)
     alpi_release(context, origin->surfaces);
     alpi_release(context, origin->placements);
     alpi_release(context, origin->materials);
+    alpi_release(context, origin->images);
     alpi_release(context, origin);
 }
 
@@ -381,47 +382,19 @@ static alp_result move_to_origin(alpi_collada_reader *reader)
 
 // --- all together --------------------------------------------------------------------------------
 
-static void tell_oddities(const alpi_collada_reader *r)
+static void count_losses(const alpi_collada_reader *reader, alpi_collada_losses *losses)
 {
-    alp_context *context = r->context;
-    const char *path = r->document->path;
-    if (r->skinned > 0) {
-        alpi_note(context, "skin", path,
-                  "%u skinned meshes are read in their rest pose, before the skin is applied",
-                  r->skinned);
+    const xmlNode *library = alpi_xml_child(reader->document->root, "library_animations");
+    for (uint32_t i = 0; i < reader->effect_count; i++) {
+        losses->heights += reader->effects[i].has_heights;
+        losses->gloss_maps += reader->effects[i].has_gloss_map;
+        losses->mirrors += reader->effects[i].has_mirror;
     }
-    if (r->morphed > 0) {
-        alpi_note(context, "morph", path, "meshes read without their morph targets: %u",
-                  r->morphed);
-    }
-    if (r->not_triangles > 0) {
-        alpi_note(context, "not-triangles", path, "<lines> and <linestrips> left out: %u",
-                  r->not_triangles);
-    }
-    if (r->not_meshes > 0) {
-        alpi_warn(context, "not-mesh", path,
-                  "instances of geometries other than <mesh> (splines, convex hulls, solids) "
-                  "left out: %u; export them as meshes",
-                  r->not_meshes);
-    }
-    if (r->without_material > 0) {
-        alpi_note(context, "no-material", path,
-                  "primitives without a material, taken as a grey of albedo 0.5: %u",
-                  r->without_material);
-    }
-    if (r->odd_alpha > 0) {
-        alpi_warn(context, "alpha", path,
-                  "materials with the invisible opacity that some exporters write for opaque "
-                  "ones: %u; read as opaque",
-                  r->odd_alpha);
-    }
-    if (r->lost_sets > 0) {
-        char owner[ALPI_COLLADA_OWNER_SIZE];
-        alpi_collada_owner(r->document, r->lost_set, owner);
-        alpi_warn(context, "uv-set", owner,
-                  "textures left out because they are bound to a coordinate set that their "
-                  "primitive does not have, this one first: %u; correct the input_set",
-                  r->lost_sets);
+    for (; library != NULL; library = alpi_xml_next(library, "library_animations")) {
+        const xmlNode *animation = alpi_xml_child(library, "animation");
+        for (; animation != NULL; animation = alpi_xml_next(animation, "animation")) {
+            losses->animations++;
+        }
     }
 }
 
@@ -433,11 +406,13 @@ static alp_result fill_scene(alpi_collada_reader *reader, alpi_collada_origin *o
     ALP_TRY(move_to_origin(reader));
     ALP_TRY(alpi_collada_read_images(reader));
     ALP_TRY(alpi_collada_read_fixtures(reader));
-    tell_oddities(reader);
-    origin->materials = ALPI_NEW(reader->context, xmlNode *, reader->material_count);
-    if (origin->materials == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+    alpi_collada_tell_oddities(reader);
+    ALPI_TRY_NEW(reader->context, origin->materials, reader->material_count);
+    ALPI_TRY_NEW(reader->context, origin->images, reader->image_count);
+    for (uint32_t i = 0; i < reader->image_count; i++) {
+        origin->images[i] = reader->images[i].element;
     }
+    count_losses(reader, &origin->losses);
     for (uint32_t m = 0; m < reader->material_count; m++) {
         origin->materials[m] = reader->materials[m].element;
     }
@@ -459,6 +434,7 @@ alp_result alpi_collada_scene_from_document(alpi_collada_document *document, alp
         return result;
     }
     origin->document = document;
+    made->read_image = alpi_collada_read_image;
     made->attachments[ALPI_ATTACHMENT_COLLADA] = (alpi_attachment){origin, destroy_origin};
     made->input_hash = alpi_hash_bytes(ALPI_HASH_START, document->file_bytes, document->file_size);
     result = alpi_collada_reader_create(document, &reader);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The steps of reading a COLLADA document into a scene, and what the writer wants to know of them.
 //
-//   collada_mesh.c       inputs, sources, primitives → vertices and triangles of a geometry
+//   collada_mesh.c       inputs, primitives → vertices and triangles of a geometry
+//   collada_sources.c    sources of numbers
 //   collada_faces.c      triangles, polylists, polygons, strips and fans → triangles of corners
 //   collada_nodes.c      the walk over the nodes: what is placed where
 //   collada_transform.c  matrix, translate, rotate, scale, skew, lookat; axis and unit
-//   collada_effects.c    materials, images
+//   collada_effects.c    effects, over collada_extras.c
+//   collada_materials.c  materials, images
 //   collada_lights.c     lights and cameras
+//   collada_faults.c     faults that cost one element; what is odd, told once a kind
 //   collada_read.c       all of them, and filling the scene
 #ifndef ALPI_FORMATS_COLLADA_READ_H
 #define ALPI_FORMATS_COLLADA_READ_H
@@ -59,6 +62,7 @@ typedef struct alpi_collada_inputs {
     uint32_t offset[ALPI_COLLADA_KEY_COUNT]; // of its index within a corner
     uint32_t uv_numbers[ALPI_UV_SET_LIMIT];  // the file's set="" of each of our sets, rising
     uint32_t uv_count, uv_left_out;
+    const xmlNode *bad;      // an <input> that was left out, NULL = none
     uint32_t most_uv_number; // largest set="" of a TEXCOORD, ALPI_NONE = there is none
 } alpi_collada_inputs;
 
@@ -92,7 +96,8 @@ typedef struct alpi_collada_part {
 
 typedef struct alpi_collada_mesh {
     xmlNode *geometry;
-    uint32_t index; // order in which they are met
+    bool double_sided; // by an extra of the geometry or its <mesh>
+    uint32_t index;    // order in which they are met
     alpi_collada_part *parts;
     uint32_t part_count;
     uint64_t vertex_count, triangle_count; // of all parts, when the scene is filled
@@ -123,7 +128,10 @@ typedef struct alpi_collada_slot {
     uint32_t image;       // index into reader.images, ALPI_NONE = a colour
     const char *texcoord; // the name that <bind_vertex_input> binds to a set
     alpi_wrap wrap_u, wrap_v;
+    float repeat[2], offset[2]; // coordinates × repeat + offset, v from the bottom
 } alpi_collada_slot;
+
+enum { ALPI_COLLADA_SLOT_COUNT = 5 }; // diffuse, emission, transparent, ambient, normal
 
 typedef enum alpi_collada_opaque {
     ALPI_OPAQUE_A_ONE,
@@ -133,25 +141,46 @@ typedef enum alpi_collada_opaque {
 } alpi_collada_opaque;
 
 typedef struct alpi_collada_effect {
-    alpi_collada_slot diffuse, emission, transparent, ambient;
+    alpi_collada_slot diffuse, emission, transparent, ambient, normal;
     alpi_collada_opaque opaque;
     bool opaque_given;
     double transparency;
     bool double_sided;
-    bool baked; // its ambient texture is an occlusion map of ours
+    float specular[3], shininess; // below 0 where it is not stated
+    bool has_heights;             // a <bump> of heights, which is not read
+    bool has_gloss_map;           // a texture of specular colour or shininess
+    bool has_mirror;              // reflects an environment
+    bool baked;                   // its ambient texture is an occlusion map of ours
 } alpi_collada_effect;
 
 /// A material of the scene: a <material> with the coordinate sets that an instance binds.
 typedef struct alpi_collada_material {
     xmlNode *element; // NULL: stands for none
-    uint32_t sets[4]; // of diffuse, emission, transparent, ambient
-    uint32_t next;    // another one of the same element, ALPI_NONE = last
+    uint32_t sets[ALPI_COLLADA_SLOT_COUNT];
+    bool double_sided;
+    uint32_t next; // another one of the same element, ALPI_NONE = last
 } alpi_collada_material;
 
 typedef struct alpi_collada_image {
     xmlNode *element;
     bool wanted;
 } alpi_collada_image;
+
+// --- faults --------------------------------------------------------------------------------------
+
+enum {
+    ALPI_COLLADA_MISSING_LIMIT = 16, // things that are missing, and
+    ALPI_COLLADA_TOLD_LIMIT = 16,    // elements that are left out, which are told one by one
+    ALPI_COLLADA_REASON_SIZE = 700
+};
+
+/// Something that elements refer to and that is not in the document.
+typedef struct alpi_collada_missing {
+    const xmlNode *node; // the first that refers to it
+    const char *name;    // of the element that should be there
+    const char *url;     // belongs to the tree
+    uint32_t count;      // references
+} alpi_collada_missing;
 
 // --- the reader ----------------------------------------------------------------------------------
 
@@ -182,10 +211,30 @@ typedef struct alpi_collada_reader {
     uint32_t skinned, morphed, not_triangles, not_meshes, without_material, odd_alpha, outside,
         lost_sets;
     const xmlNode *lost_set; // the first <bind_vertex_input> of a set that is not there
+    alpi_collada_missing missing[ALPI_COLLADA_MISSING_LIMIT];
+    uint32_t missing_count, missing_more; // references past the limit
+    uint32_t empty;                       // geometries without a triangle
+    const xmlNode *first_empty;
+    uint32_t bad_parts, bad_fixtures; // that cannot be read
 } alpi_collada_reader;
+
+/// What a reference leads to; NULL in *target where it leads nowhere, which is told later.
+alp_result alpi_collada_refer(alpi_collada_reader *reader, const xmlNode *node,
+                              const char *attribute, const char *name, xmlNode **target);
+/// Tells what was met while the file was read: a warning or note for each kind.
+void alpi_collada_tell_oddities(const alpi_collada_reader *reader);
+/// The message of the last fault without the document's path, for warnings that have it.
+const char *alpi_collada_reason(const alpi_collada_document *document);
+/// Whether a result is INVALID_DATA, which then becomes ALP_OK. The caller leaves the element out
+/// and warns with the reason.
+bool alpi_collada_survives(const alpi_collada_document *document, alp_result *result,
+                           char reason[ALPI_COLLADA_REASON_SIZE]);
 
 /// The mesh of a <geometry>, read at its first use. ALPI_NONE: it is no mesh.
 alp_result alpi_collada_read_mesh(alpi_collada_reader *reader, xmlNode *geometry, uint32_t *mesh);
+/// A <source>, read at its first use: its place in the reader's list.
+alp_result alpi_collada_read_source(alpi_collada_reader *reader, xmlNode *element,
+                                    uint32_t *source);
 /// The numbers of a source's array in double, read at their first use and owned by the reader.
 alp_result alpi_collada_exact_values(alpi_collada_reader *reader, const alpi_collada_source *source,
                                      const double **values);
@@ -194,9 +243,10 @@ alp_result alpi_collada_read_inputs(alpi_collada_reader *reader, xmlNode *elemen
                                     alpi_collada_inputs *inputs);
 /// Whether an element is a primitive of triangles or polygons.
 bool alpi_collada_is_primitive(const xmlNode *element);
-/// Its faces; every index is within its source. Destroyed by the caller.
+/// Its faces; every index is within its source. Normals and colours whose indices are not are taken
+/// out of the inputs. Destroyed by the caller.
 alp_result alpi_collada_read_faces(alpi_collada_reader *reader, xmlNode *element,
-                                   const alpi_collada_inputs *inputs, alpi_collada_faces *faces);
+                                   alpi_collada_inputs *inputs, alpi_collada_faces *faces);
 void alpi_collada_faces_destroy(alp_context *context, alpi_collada_faces *faces);
 
 /// Fills placements and fixtures.
@@ -211,9 +261,18 @@ alp_result alpi_collada_read_transform(const alpi_collada_document *document,
 alp_result alpi_collada_read_material(alpi_collada_reader *reader,
                                       const alpi_collada_placement *placement,
                                       const alpi_collada_part *part, uint32_t *material);
+/// An effect, read at its first use.
+alp_result alpi_collada_read_effect(alpi_collada_reader *reader, const xmlNode *element,
+                                    const alpi_collada_effect **effect);
+/// An element of that name in a technique of an <extra> of an element; NULL without.
+const xmlNode *alpi_collada_find_extra(const xmlNode *element, const char *name);
+/// Whether an <extra> of the element says double_sided.
+bool alpi_collada_is_double_sided(const xmlNode *element);
+/// How an <extra> of a <texture> repeats, moves and wraps it.
+void alpi_collada_read_placing(const xmlNode *texture, alpi_collada_slot *slot);
 /// The technique element of an effect that holds its shader, and the shader; NULL without.
 xmlNode *alpi_collada_shader(const xmlNode *effect);
-/// Decodes the images that materials use.
+/// Decodes the images that materials use; not those that are normal maps alone.
 alp_result alpi_collada_read_images(alpi_collada_reader *reader);
 /// scene.lights and scene.cameras; after the geometry, by whose size attenuation is judged.
 alp_result alpi_collada_read_fixtures(alpi_collada_reader *reader);
@@ -223,12 +282,18 @@ typedef struct alpi_collada_surface {
     xmlNode *primitive, *geometry, *instance;
     uint32_t placement;
 } alpi_collada_surface;
+/// What is read from the document but has no place in another format.
+typedef struct alpi_collada_losses {
+    uint32_t heights, gloss_maps, mirrors, animations;
+} alpi_collada_losses;
 typedef struct alpi_collada_origin {
     alpi_collada_document *document;
     alpi_collada_surface *surfaces;     // [surface_count]
     xmlNode **materials;                // [material_count]
+    xmlNode **images;                   // [image_count] of the scene
     alpi_collada_placement *placements; // [placement_count]
     uint32_t placement_count;
+    alpi_collada_losses losses;
 } alpi_collada_origin;
 
 /// The scene takes the document over (also on failure).

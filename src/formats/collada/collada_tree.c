@@ -126,6 +126,14 @@ xmlNode *alpi_collada_find(const alpi_collada_document *d, const char *id)
                : NULL;
 }
 
+xmlNode *alpi_collada_target(const alpi_collada_document *d, const xmlNode *node,
+                             const char *attribute)
+{
+    const char *url = alpi_xml_attribute(node, attribute);
+    url = url != NULL ? url + strspn(url, " \t\r\n") : "";
+    return alpi_collada_find(d, url[0] == '#' ? url + 1 : url);
+}
+
 alp_result alpi_collada_resolve(const alpi_collada_document *d, const xmlNode *node,
                                 const char *attribute, const char *name, xmlNode **target)
 {

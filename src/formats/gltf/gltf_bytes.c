@@ -83,6 +83,15 @@ static bool has_scheme(const char *uri)
     return length > 0 && uri[length] == ':';
 }
 
+/// A backslash is no character of a URI: programs of Windows write it between folders. One that is
+/// part of a name is written %5C.
+static void turn_backslashes(char *uri)
+{
+    for (char *c = uri; *c != '\0'; c++) {
+        *c = *c == '\\' ? '/' : *c;
+    }
+}
+
 alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *uri,
                               const char *owner, char **path)
 {
@@ -101,6 +110,7 @@ alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *ur
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     alp_result result = ALP_OK;
+    turn_backslashes(name);
     if (alpi_uri_decode(name)) {
         result = alpi_outside_path(document->context, document->folder, name, path);
     }

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
+#include "formats/gltf/gltf_mend.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/text/json_spans.h"
 
@@ -218,14 +219,25 @@ static alp_result check_version(const alpi_gltf_document *document)
     return ALP_OK;
 }
 
-/// Whether a bake is right although an asset requires `name`: what we read, and materials that
-/// change neither geometry nor diffuse colour.
+/// Whether a bake is right although an asset requires `name`: what we read, and what changes
+/// neither the shape nor the diffuse colour of what is first shown.
 static bool extension_is_known(const char *name)
 {
     static const char *const known[] = {
+        "AGI_articulations",
+        "AGI_stk_metadata",
+        "CESIUM_primitive_outline",
+        "EXT_instance_features",
+        "EXT_mesh_features",
         "EXT_mesh_gpu_instancing",
+        "EXT_mesh_manifold",
         "EXT_meshopt_compression",
+        "EXT_structural_metadata",
         "EXT_texture_webp",
+        "KHR_animation_pointer",
+        "KHR_audio_emitter",
+        "KHR_implicit_shapes",
+        "KHR_interactivity",
         "KHR_lights_punctual",
         "KHR_materials_anisotropy",
         "KHR_materials_clearcoat",
@@ -238,9 +250,19 @@ static bool extension_is_known(const char *name)
         "KHR_materials_specular",
         "KHR_materials_transmission",
         "KHR_materials_unlit",
+        "KHR_materials_variants",
         "KHR_materials_volume",
         "KHR_mesh_quantization",
+        "KHR_node_hoverability",
+        "KHR_node_selectability",
+        "KHR_node_visibility",
+        "KHR_physics_rigid_bodies",
         "KHR_texture_transform",
+        "KHR_xmp",
+        "KHR_xmp_json_ld",
+        "MSFT_lod",
+        "VRMC_springBone",
+        "VRMC_vrm",
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         if (strcmp(name, known[i]) == 0) {
@@ -288,6 +310,27 @@ static alp_result check_extensions(const alpi_gltf_document *document)
         }
     }
     return ALP_OK;
+}
+
+// --- what is not there --------------------------------------------------------------------------
+
+/// Takes references to missing elements out of the text, and reads it again.
+static alp_result mend_references(alpi_gltf_document *document)
+{
+    alpi_bytes text = alpi_bytes_create(document->context);
+    bool mended;
+    alp_result result = alpi_gltf_mend(document, &text, &mended);
+    if (result != ALP_OK || !mended) {
+        alpi_bytes_destroy(&text);
+        return result;
+    }
+    document->mended_text = (char *)text.bytes;
+    document->text = document->mended_text;
+    document->text_size = text.size;
+    json_decref(document->root);
+    document->root = NULL;
+    ALP_TRY(parse_json(document));
+    return check_arrays(document);
 }
 
 // --- buffers ------------------------------------------------------------------------------------
@@ -366,10 +409,12 @@ static alp_result fill_document(alpi_gltf_document *document, const char *path)
                          document->file_size, ALPI_GLTF_FILE_LIMIT);
     }
     ALP_TRY(read_container(document));
+    document->text_begin = (size_t)(document->text - (const char *)document->file_bytes);
     ALP_TRY(parse_json(document));
     ALP_TRY(check_version(document));
     ALP_TRY(check_extensions(document));
     ALP_TRY(check_arrays(document));
+    ALP_TRY(mend_references(document));
     ALP_TRY(read_buffers(document));
     ALP_TRY(alpi_gltf_decode_views(document));
     return alpi_gltf_decode_primitives(document);
@@ -429,6 +474,7 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
     alpi_release(context, document->decoded_views);
     alpi_release(context, document->decoded);
     alpi_release(context, document->buffers);
+    alpi_release(context, document->mended_text);
     alpi_release(context, document->file_bytes);
     alpi_release(context, document->choice);
     alpi_release(context, document->folder);

@@ -22,6 +22,8 @@ typedef struct alpi_gltf_document {
     uint8_t *file_bytes; // the whole file
     size_t file_size;
     const char *text;   // the JSON inside file_bytes: not terminated; a byte-order mark is outside
+    char *mended_text;  // the same without references to what is not there, or NULL: then `text`
+    size_t text_begin;  // of the JSON in the file
     size_t text_size;   // a GLB's chunk padding (spaces) included
     const uint8_t *bin; // a GLB's BIN chunk, or NULL
     size_t bin_size;    // chunk length, padding included

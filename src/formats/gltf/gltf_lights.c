@@ -101,7 +101,7 @@ alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader)
     for (uint32_t i = 0; i < reader->order_count; i++) {
         uint32_t node = reader->order[i];
         json_t *use = alpi_gltf_extension(alpi_gltf_item(document, "nodes", node), extension);
-        if (use == NULL) {
+        if (use == NULL || reader->hidden[node]) {
             continue;
         }
         char owner[ALPI_GLTF_OWNER_SIZE];

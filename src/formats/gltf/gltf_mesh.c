@@ -32,7 +32,7 @@ typedef struct plan {
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
     // for one note a file each
-    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced;
+    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
 } plan;
 
 // --- sizes --------------------------------------------------------------------------------------
@@ -145,21 +145,6 @@ static alp_result find_material(plan *p, const part *from, const char *owner, al
     return ALP_OK;
 }
 
-static char *surface_name(const plan *p, const alpi_surface *surface)
-{
-    alp_context *context = p->reader->context;
-    json_t *node = alpi_gltf_item(p->reader->document, "nodes", surface->node);
-    json_t *mesh = alpi_gltf_item(p->reader->document, "meshes", surface->mesh);
-    const char *node_name = alpi_gltf_text(node, "name"), *mesh_name = alpi_gltf_text(mesh, "name");
-    if (node_name != NULL && node_name[0] != '\0') {
-        return alpi_gltf_copy_name(context, node);
-    }
-    if (mesh_name != NULL && mesh_name[0] != '\0') {
-        return alpi_gltf_copy_name(context, mesh);
-    }
-    return alpi_format(context, "node %u", surface->node);
-}
-
 static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
 {
     alp_scene *scene = p->reader->scene;
@@ -172,7 +157,7 @@ static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
     result = alpi_grow(context, &surfaces, &p->surface_capacity, count + 1, sizeof(alpi_surface));
     scene->surfaces = surfaces;
     ALP_TRY(result);
-    surface->name = surface_name(p, surface);
+    surface->name = alpi_gltf_surface_name(p->reader, surface);
     if (surface->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -269,7 +254,8 @@ static alp_result plan_node(plan *p, uint32_t node)
     snprintf(owner, sizeof owner, "node %u", node);
     size_t mesh;
     ALP_TRY(alpi_gltf_index(document, object, "mesh", "meshes", owner, &mesh));
-    if (mesh == ALPI_GLTF_NONE) {
+    if (mesh == ALPI_GLTF_NONE || p->reader->hidden[node]) {
+        p->hidden += mesh != ALPI_GLTF_NONE;
         return ALP_OK;
     }
     json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
@@ -558,6 +544,13 @@ static void tell_oddities(const plan *p)
         alpi_note(context, "no-material", path,
                   "primitives without a material, read as a grey of albedo 0.5: %u",
                   p->without_material);
+    }
+    if (p->hidden > 0) {
+        alpi_note(
+            context, "hidden", path,
+            "%u nodes with meshes are hidden (KHR_node_visibility): they neither cast shadows "
+            "nor get a map, and stay in the file",
+            p->hidden);
     }
     if (p->skinned > 0) {
         alpi_note(context, "skin", path, "%u skinned nodes are read in the pose of their joints",

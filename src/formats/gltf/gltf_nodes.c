@@ -259,10 +259,20 @@ static alp_result push_roots(const alpi_gltf_reader *reader, const uint32_t *par
     return ALP_OK;
 }
 
+/// Whether a node is hidden by KHR_node_visibility: its own, or that of one above it.
+static bool is_hidden(const alpi_gltf_reader *reader, const uint32_t *parent, uint32_t node)
+{
+    json_t *visibility =
+        alpi_gltf_extension(alpi_gltf_item(reader->document, "nodes", node), "KHR_node_visibility");
+    return json_is_false(json_object_get(visibility, "visible")) ||
+           (parent[node] != ALPI_NONE && reader->hidden[parent[node]]);
+}
+
 static alp_result walk(alpi_gltf_reader *reader, const uint32_t *parent, node_stack *stack)
 {
     while (stack->count > 0) {
         uint32_t node = stack->nodes[--stack->count];
+        reader->hidden[node] = is_hidden(reader, parent, node); // after its parent
         mat4 local;
         ALP_TRY(read_transform(reader, node, &local));
         reader->world[node] =
@@ -296,6 +306,7 @@ static alp_result read_trees(alpi_gltf_reader *reader, work *w)
     ALPI_TRY_NEW(reader->context, reader->world, count);
     ALPI_TRY_NEW(reader->context, reader->order, count);
     ALPI_TRY_NEW(reader->context, reader->placed, count);
+    ALPI_TRY_NEW(reader->context, reader->hidden, count);
     ALP_TRY(find_parents(reader, w->parent));
     ALP_TRY(find_cycles(reader, w->parent, w->marks));
     ALP_TRY(push_roots(reader, w->parent, w->seen, &w->stack));
@@ -317,4 +328,20 @@ alp_result alpi_gltf_read_nodes(alpi_gltf_reader *reader)
     alpi_release(reader->context, w.seen);
     alpi_release(reader->context, w.stack.nodes);
     return result;
+}
+
+// --- names ---------------------------------------------------------------------------------------
+
+char *alpi_gltf_surface_name(const alpi_gltf_reader *reader, const alpi_surface *surface)
+{
+    json_t *node = alpi_gltf_item(reader->document, "nodes", surface->node);
+    json_t *mesh = alpi_gltf_item(reader->document, "meshes", surface->mesh);
+    const char *node_name = alpi_gltf_text(node, "name"), *mesh_name = alpi_gltf_text(mesh, "name");
+    if (node_name != NULL && node_name[0] != '\0') {
+        return alpi_gltf_copy_name(reader->context, node);
+    }
+    if (mesh_name != NULL && mesh_name[0] != '\0') {
+        return alpi_gltf_copy_name(reader->context, mesh);
+    }
+    return alpi_format(reader->context, "node %u", surface->node);
 }

@@ -62,6 +62,7 @@ static alp_result read_document(alpi_gltf_reader *reader, alpi_gltf_document *do
     alpi_release(reader->context, reader->world);
     alpi_release(reader->context, reader->order);
     alpi_release(reader->context, reader->placed);
+    alpi_release(reader->context, reader->hidden);
     alpi_release(reader->context, reader->material_used);
     if (result != ALP_OK) {
         alp_scene_destroy(reader->scene);

@@ -17,6 +17,7 @@ typedef struct alpi_gltf_reader {
     uint32_t *order; // [order_count] nodes of the scene, parents first, in file order
     uint32_t order_count;
     bool *placed;        // [node_count] whether a node is in `order`
+    bool *hidden;        // [node_count] whether it shows neither mesh nor light
     bool *material_used; // [scene.material_count]
     uint64_t posing;     // work of skins and morph targets so far
     uint64_t keys;       // numbers of animations so far
@@ -28,6 +29,8 @@ typedef struct alpi_gltf_reader {
 
 /// gltf_nodes.c: checks that the nodes are trees and fills world and order.
 alp_result alpi_gltf_read_nodes(alpi_gltf_reader *reader);
+/// Its node's name, else its mesh's, else a number; the caller's.
+char *alpi_gltf_surface_name(const alpi_gltf_reader *reader, const alpi_surface *surface);
 /// gltf_materials.c: scene.materials, one for each of the file, at the same index.
 alp_result alpi_gltf_read_materials(alpi_gltf_reader *reader);
 /// gltf_materials.c: the texture that an object names as `member`; none where there is none or it

@@ -51,7 +51,9 @@ void alpi_obj_print_shine(alpi_obj_writer *w, alpi_obj_use use, const alpi_mater
         alpi_obj_print_texture(w, use, "map_Ks", &s->specular_texture, ALPI_OBJ_PICTURE_WHOLE);
     }
     if (shines) {
-        print_number(w, "Ns", exponent_of(s->roughness));
+        alpi_bytes_print(&w->mtl, "Ns ");
+        alpi_bytes_number(&w->mtl, (double)exponent_of(s->roughness), 6); // roughness rounds it
+        alpi_bytes_print(&w->mtl, "\n");
         print_number(w, "Pr", s->roughness);
         alpi_obj_print_texture(w, use, "map_Pr", &s->roughness_texture, ALPI_OBJ_PICTURE_ROUGHNESS);
     }

@@ -1,44 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Energy balance of a solution, and the gain of texels that lie partly in a solid.
+// Energy balance of a solution.
 #include "maps/radiosity/solver.h"
 
 #include "base/tasks.h"
 
-#include <math.h>
-
-/// Mean share of rays that do not end on a back, over those neighbours in the same chart that are
-/// outside all solids. 1 if there are none.
-static float neighbours_open_share(const alpi_radiosity *r, uint32_t texel)
-{
-    const alpi_patches *p = &r->patches;
-    const alpi_texels *t = p->texels;
-    const uint16_t *pixel = t->pixels[texel];
-    float sum = 0.0f;
-    uint32_t count = 0;
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(p->lattice, t->pages[texel], pixel[0] + k % 3 - 1,
-                                              pixel[1] + k / 3 - 1);
-        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && p->patch_of[n] != ALPI_NONE &&
-            t->valid[n] == 0 && (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
-            sum += 1.0f - r->lost[p->patch_of[n]][1];
-            count++;
-        }
-    }
-    return count > 0 ? sum / (float)count : 1.0f;
-}
-
-float alpi_radiosity_visible_gain(const alpi_radiosity *r, uint32_t texel, uint32_t patch)
-{
-    const float most = 4.0f; // few rays must not turn a corner into a light
-    const alpi_texels *texels = r->patches.texels;
-    if (texels->valid == NULL || texels->valid[texel] == 0) {
-        return 1.0f;
-    }
-    const float around = neighbours_open_share(r, texel), own = 1.0f - r->lost[patch][1];
-    return fminf(fmaxf(around / fmaxf(own, 1.0f / most), 1.0f), most);
-}
-
-/// Sums over texels: those of alpi_energy, emitted light, and its part that hits other surfaces.
+/// Sums over texels: direct light, parts of alpi_energy, emitted light, and its part that hits
+/// other surfaces.
 enum { RECEIVED, ABSORBED, ESCAPED, LOST_BEHIND, UNSHOT, EMITTED, EMITTED_AT_OTHERS };
 _Static_assert((int)EMITTED_AT_OTHERS < (int)ALPI_SUM_LIMIT, "all are summed at once");
 
@@ -96,7 +63,6 @@ alp_result alpi_radiosity_measure_energy(alpi_radiosity *r, const alpi_task_prog
     const bool others = alpi_lighting_light_count(l) > 0 || alpi_lighting_sky(l) != NULL;
     r->energy = (alpi_energy){.emitted = sums[EMITTED] +
                                          (others ? sums[RECEIVED] - sums[EMITTED_AT_OTHERS] : 0.0),
-                              .received = sums[RECEIVED],
                               .absorbed = sums[ABSORBED],
                               .escaped = sums[ESCAPED],
                               .lost_behind = sums[LOST_BEHIND],

@@ -3,42 +3,30 @@
 
 #include "base/memory.h"
 #include "maps/radiosity/final_gather_job.h"
-#include "maps/radiosity/stencil_light.h"
 #include "maps/texels/pooled_variance.h"
 #include "maps/texels/validity.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { TEXELS_PER_RANGE = 1 << 9 }; // few, as some passes are short
+enum { TEXELS_PER_RANGE = 1 << 9 }; // few, as some texels take longer
 enum { FLOOD_ROUNDS = 4 };
 
-// Limits in standard deviations of the noise, as for occlusion (occlusion_map.c).
+// Limits in standard deviations of the noise.
 static const float BEND_LIMIT = 1.0f, SPREAD_LIMIT = 20.0f, KINK_LIMIT = 2.0f;
-/// Share of the spread near another surface: docs/how/light.md, "The final gather".
+/// Share of the spread near another surface. Half of it and half of the bend, with all texels that
+/// touch one traced, took twice the rays on cornell for the same error.
 static const float NEAR_SPREAD = 0.3f;
 
-static alpi_texel_list all_texels(const alpi_final_gather_job *job)
-{
-    return (alpi_texel_list){job->options->order, job->options->count};
-}
-
-static alpi_texel_list texels_of(const alpi_final_gather_job *job, uint32_t pass)
-{
-    const uint32_t first = job->pass_first[pass];
-    return (alpi_texel_list){job->by_pass + first, job->pass_first[pass + 1] - first};
-}
-
-static alp_result for_texels(alpi_final_gather_job *job, alpi_texel_list texels, alpi_task_fn *body)
+static alp_result for_texels(alpi_final_gather_job *job, alpi_task_fn *body)
 {
     alpi_task_progress silent = job->progress;
     silent.units_total = 0.0;
-    job->now = texels;
-    return alpi_parallel_for(job->lattice.context, texels.count, TEXELS_PER_RANGE, body, job,
+    return alpi_parallel_for(job->lattice.context, job->options->count, TEXELS_PER_RANGE, body, job,
                              &silent);
 }
 
-uint32_t alpi_final_gather_count_traced(const alpi_final_gather_job *job)
+static uint32_t count_traced(const alpi_final_gather_job *job)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->options->count; i++) {
@@ -56,12 +44,12 @@ static void sum_noise(const void *user, uint32_t begin, uint32_t end, double sum
         const uint32_t t = job->options->order[i];
         const alpi_reference_value *v = &job->options->gather->values[t];
         if (job->lattice.states[t] == ALPI_TEXEL_TRACED) {
-            const double level = (double)alpi_reference_level(v);
+            const double mean = (double)alpi_reference_level(v);
             // The errors of the channels are correlated.
             sums[0] +=
                 ((double)v->variance[0] + (double)v->variance[1] + (double)v->variance[2]) / 3.0;
-            sums[1] += level;
-            sums[2] += level * level;
+            sums[1] += mean;
+            sums[2] += mean * mean;
         }
     }
 }
@@ -72,16 +60,16 @@ static alp_result measure_noise(alpi_final_gather_job *job, uint32_t traced)
     ALP_TRY(
         alpi_parallel_sum(job->lattice.context, job->options->count, sum_noise, job, NULL, sums));
     job->noise = sums[2] > 0.0 ? (float)sqrt(sums[0] / sums[2]) : 0.0f;
-    job->level = traced > 0 ? (float)(sums[1] / traced) : 0.0f;
+    job->mean = traced > 0 ? (float)(sums[1] / traced) : 0.0f;
     return ALP_OK;
 }
 
 /// The noise at a texel of this light. Half of it scales with the mean over the map, which relaxes
 /// the limits in the dark.
-static float noise_at(const void *user, float level)
+static float noise_at(const void *user, float light)
 {
     const alpi_final_gather_job *job = user;
-    return job->noise * 0.5f * (fmaxf(level, 0.0f) + job->level);
+    return job->noise * 0.5f * (fmaxf(light, 0.0f) + job->mean);
 }
 
 // --- the lattice ---------------------------------------------------------------------------------
@@ -91,9 +79,9 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
     (void)worker;
     alpi_final_gather_job *job = user;
     const alpi_lattice_judge judge = {.lattice = &job->lattice,
-                                      .order = job->now.texels,
+                                      .order = job->options->order,
                                       .proximity = job->options->proximity,
-                                      .wanted = job->wanted,
+                                      .marked = job->marked,
                                       .spread = SPREAD_LIMIT,
                                       .bend = BEND_LIMIT,
                                       .kink = KINK_LIMIT,
@@ -101,7 +89,7 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
                                       .near_spread = NEAR_SPREAD,
                                       .near_bend = 1.0f,
                                       .user = job,
-                                      .pass = job->pass,
+                                      .level = job->level,
                                       .flood = job->flood};
     alpi_lattice_judge_range(&judge, begin, end);
     return ALP_OK;
@@ -109,85 +97,70 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
 
 /// Marks the texels to be traced first: the lattice, which no stencil covers, and every second
 /// texel of every second row where another surface touches. Not adaptive: all.
-static alp_result want_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static alp_result mark_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const alpi_final_gather_job *job = user;
     for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->now.texels[i];
+        const uint32_t t = job->options->order[i];
         const uint16_t *pixel = job->lattice.texels->pixels[t];
         const uint8_t proximity =
             job->options->proximity != NULL ? job->options->proximity[t] : ALPI_FAR;
-        job->wanted[t] = job->lattice.states[t] == ALPI_TEXEL_OPEN &&
-                         (!job->options->adaptive || alpi_lattice_pass(pixel) == 0 ||
+        job->marked[t] = job->lattice.states[t] == ALPI_TEXEL_OPEN &&
+                         (!job->options->adaptive || alpi_lattice_level(pixel) == 0 ||
                           (proximity == ALPI_TOUCHING && alpi_lattice_is_coarse(pixel)));
     }
     return ALP_OK;
 }
 
-/// Interpolates the texels of a pass that may be, and traces the others.
-static alp_result run_pass(alpi_final_gather_job *job, uint32_t pass)
+/// Interpolates the texels of a level that may be, and traces the others.
+static alp_result run_level(alpi_final_gather_job *job, uint32_t level)
 {
-    const alpi_texel_list texels = texels_of(job, pass);
-    job->pass = pass;
+    job->level = level;
     job->flood = false;
-    ALP_TRY(for_texels(job, texels, judge_range));
-    return alpi_final_gather_trace_wanted(job, texels);
+    ALP_TRY(for_texels(job, judge_range));
+    return alpi_final_gather_trace_marked(job);
 }
 
 /// @param traced out: how many texels
 static alp_result flood(alpi_final_gather_job *job, uint64_t *traced)
 {
-    const uint64_t before = job->gathered;
+    const uint64_t before = job->sent;
     job->flood = true;
-    ALP_TRY(for_texels(job, all_texels(job), judge_range));
-    ALP_TRY(alpi_final_gather_trace_wanted(job, all_texels(job)));
-    *traced = job->gathered - before;
+    ALP_TRY(for_texels(job, judge_range));
+    ALP_TRY(alpi_final_gather_trace_marked(job));
+    *traced = job->sent - before;
     return ALP_OK;
 }
 
-/// Interpolates channels and levels again, since texels of their stencils were traced in between.
-static alp_result interpolate_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+/// Interpolates all channels, since texels of stencils were traced after the judge saw them.
+static void interpolate(void *user, uint32_t texel, const alpi_stencil *stencil)
 {
-    (void)worker;
     const alpi_final_gather_job *job = user;
-    const alpi_lattice *l = &job->lattice;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t t = job->now.texels[i];
-        alpi_stencil stencil;
-        if (l->states[t] == ALPI_TEXEL_INTERPOLATED && alpi_lattice_stencil(l, t, &stencil)) {
-            l->values[t] = alpi_lattice_interpolate(l, &stencil);
-            alpi_stencil_light(job->options->gather, t, &stencil);
-            alpi_stencil_directional(job->options->gather, t, &stencil);
-        }
-    }
-    return ALP_OK;
+    job->lattice.values[texel] = alpi_lattice_interpolate(&job->lattice, stencil);
+    alpi_stencil_light(job->options->gather, texel, stencil);
+    alpi_stencil_directional(job->options->gather, texel, stencil);
 }
 
-/// Runs the passes of half and quarter spacing, and the flood, after the lattice itself.
+/// Runs the levels of half and quarter spacing, and the flood, after the lattice itself.
 static alp_result refine(alpi_final_gather_job *job)
 {
-    ALPI_TRY_NEW(job->lattice.context, job->by_pass, job->options->count);
-    ALP_TRY(alpi_lattice_split(&job->lattice, job->options->order, job->options->count,
-                               job->by_pass, job->pass_first));
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        ALP_TRY(run_pass(job, pass));
+    for (uint32_t level = 1; level < ALPI_LATTICE_LEVELS; level++) {
+        ALP_TRY(run_level(job, level));
     }
     uint64_t last = 1;
     for (int round = 0; round < FLOOD_ROUNDS && last > 0; round++) {
         ALP_TRY(flood(job, &last));
     }
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        ALP_TRY(for_texels(job, texels_of(job, pass), interpolate_range));
-    }
-    alpi_release(job->lattice.context, job->by_pass); // before the errors need memory
-    job->by_pass = NULL;
-    return ALP_OK;
+    alpi_task_progress silent = job->progress;
+    silent.units_total = 0.0;
+    return alpi_lattice_for_stencils(&job->lattice, job->options->order, job->options->count,
+                                     interpolate, job, &silent);
 }
 
 static alp_result state_errors(alpi_final_gather_job *job)
 {
-    const uint32_t traced = alpi_final_gather_count_traced(job);
+    const uint32_t traced = count_traced(job);
     const uint32_t interpolated = job->options->count - traced;
     float variance[3] = {0.0f, 0.0f, 0.0f};
     job->report->traced = traced;
@@ -224,7 +197,7 @@ static alp_result start(alpi_final_gather_job *job)
 {
     alp_context *context = job->lattice.context;
     const uint32_t texels = job->lattice.texels->count, count = job->options->count;
-    ALPI_TRY_NEW(context, job->wanted, texels);
+    ALPI_TRY_NEW(context, job->marked, texels);
     ALPI_TRY_NEW(context, job->list,
                  count < ALPI_FINAL_GATHER_LIST ? count : ALPI_FINAL_GATHER_LIST);
     if (job->lattice.values == NULL) {
@@ -239,9 +212,9 @@ static alp_result start(alpi_final_gather_job *job)
 static alp_result run(alpi_final_gather_job *job)
 {
     ALP_TRY(start(job));
-    ALP_TRY(for_texels(job, all_texels(job), want_range));
-    ALP_TRY(alpi_final_gather_trace_wanted(job, all_texels(job)));
-    const uint32_t traced = alpi_final_gather_count_traced(job);
+    ALP_TRY(for_texels(job, mark_range));
+    ALP_TRY(alpi_final_gather_trace_marked(job));
+    const uint32_t traced = count_traced(job);
     if (job->options->joined) {
         ALP_TRY(alpi_final_gather_find_factor(job, traced));
     }
@@ -252,14 +225,12 @@ static alp_result run(alpi_final_gather_job *job)
     return state_errors(job);
 }
 
-alpi_lattice alpi_final_gather_lattice(const alpi_final_gather_options *options,
-                                       const alpi_lattice *lattice, uint8_t *states, float *values)
+alpi_lattice alpi_final_gather_lattice(const alpi_lattice *lattice, uint8_t *states, float *values)
 {
     alpi_lattice own = *lattice;
     own.states = states;
     own.values = values;
-    own.straight = options->straight;
-    own.along_borders = true;
+    own.straight = true;
     return own;
 }
 
@@ -272,12 +243,11 @@ alp_result alpi_final_gather(const alpi_final_gather_options *options, const alp
     job.expected = (first ? options->count : report->traced) + ALPI_HELD_OUT;
     *report = (alpi_final_gather_report){.factor = report->factor};
     job.progress = progress != NULL ? *progress : (alpi_task_progress){0};
-    job.lattice = alpi_final_gather_lattice(options, lattice, states, options->levels);
+    job.lattice = alpi_final_gather_lattice(lattice, states, options->means);
     const alp_result result = run(&job);
-    alpi_release(lattice->context, job.wanted);
-    alpi_release(lattice->context, job.by_pass);
+    alpi_release(lattice->context, job.marked);
     alpi_release(lattice->context, job.list);
-    if (options->levels == NULL) {
+    if (options->means == NULL) {
         alpi_release(lattice->context, job.lattice.values);
     }
     return result;

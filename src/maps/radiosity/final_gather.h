@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The final gather: bounced light at the texels of an atlas, over the adaptive lattice.
 //
-// Bounced light varies slowly, except where surfaces meet, so most texels are interpolated. Passes,
+// Bounced light varies slowly, except where surfaces meet, so most texels are interpolated. Levels,
 // stencils and the flood are those of lattice.h; stencils also run along borders of charts. The
 // limits of the judge scale with the noise of the rays and with the light. The judge compares the
 // means of the channels; the same stencils interpolate each channel and the sky's part.
@@ -9,9 +9,25 @@
 #ifndef ALPI_MAPS_FINAL_GATHER_H
 #define ALPI_MAPS_FINAL_GATHER_H
 
-#include "maps/radiosity/held_out.h"
 #include "maps/texels/lattice.h"
 #include "transport/gather/gather.h"
+
+enum { ALPI_HELD_OUT = 1024 };
+
+/// Held-out texels: interpolated, and also traced by independent rays. Their differences measure
+/// the error of interpolation, which no repetition of the same rays would reveal. The first of
+/// several maps of the same light chooses them, evenly and at random among those that it
+/// interpolates. Every map traces them.
+typedef struct alpi_held_out {
+    uint32_t count; // 0: none yet
+    uint32_t texels[ALPI_HELD_OUT];
+    alpi_reference_value values[ALPI_HELD_OUT]; // by the independent rays of the last map
+} alpi_held_out;
+
+/// Mean square error of texels by channel, compared with independent values y of known variance:
+/// E[(x − y)²] − Var y = E[(x − truth)²], at least 0.
+void alpi_held_out_error(const uint32_t *texels, const alpi_reference_value *found, uint32_t count,
+                         const alpi_reference_value *values, float variance[3]);
 
 typedef struct alpi_final_gather_options {
     const alpi_gather_job *gather; // list and count are ignored; its gatherer measures its error
@@ -19,13 +35,12 @@ typedef struct alpi_final_gather_options {
     uint32_t count;
     const uint8_t *proximity; // [texels] alpi_proximity, or NULL
     bool adaptive;            // false: all texels are traced
-    bool straight;            // as in alpi_lattice
     alpi_held_out *held_out;  // NULL: errors of this map alone; else in and out
     // A gatherer like that of `gather` with other random numbers. It traces held-out texels, some
     // of which this map may trace itself, and check texels if replicates are joined.
     const alpi_gatherer *independent;
-    bool joined;   // replicates share one sequence (cosine_rays.h), so their spread is too large
-    float *levels; // [texels] scratch, or NULL
+    bool joined;  // replicates share one sequence (cosine_rays.h), so their spread is too large
+    float *means; // [texels] scratch, or NULL
 } alpi_final_gather_options;
 
 typedef struct alpi_final_gather_report {
@@ -38,7 +53,7 @@ typedef struct alpi_final_gather_report {
 /// of the order.
 ///
 /// The variance of a traced texel is pooled with its neighbours. If replicates are joined, check
-/// texels (variance_factor.h) correct it. The variance of interpolated texels is their mean square
+/// texels (variance_factor.c) correct it. The variance of interpolated texels is their mean square
 /// difference to independent rays from held-out texels, less the variance of those rays. So it
 /// contains the error of interpolation. It is 0 if an earlier map chose the held-out texels: the
 /// caller then compares the mean of all maps with them.
@@ -50,9 +65,8 @@ alp_result alpi_final_gather(const alpi_final_gather_options *options, const alp
                              const alpi_task_progress *progress, uint8_t *states,
                              alpi_final_gather_report *report);
 
-/// The lattice of a final gather with these options, also for later interpolation.
+/// The lattice of a final gather, also for later interpolation: straight.
 /// @param states, values [texels] of it
-alpi_lattice alpi_final_gather_lattice(const alpi_final_gather_options *options,
-                                       const alpi_lattice *lattice, uint8_t *states, float *values);
+alpi_lattice alpi_final_gather_lattice(const alpi_lattice *lattice, uint8_t *states, float *values);
 
 #endif

@@ -8,37 +8,27 @@
 
 enum { ALPI_FINAL_GATHER_LIST = 1 << 16 }; // texels traced at a time, enough for all workers
 
-typedef struct alpi_texel_list {
-    const uint32_t *texels;
-    uint32_t count;
-} alpi_texel_list;
-
 typedef struct alpi_final_gather_job {
     const alpi_final_gather_options *options;
     alpi_lattice lattice; // states and values are of this map
     alpi_task_progress progress;
     alpi_final_gather_report *report;
-    uint8_t *wanted;   // [texels] to be traced next
-    uint32_t *by_pass; // [count] the order, pass by pass; NULL if not adaptive
-    uint32_t pass_first[ALPI_LATTICE_PASSES + 1];
-    alpi_texel_list now; // texels of the current loop
-    uint32_t *list;      // [ALPI_FINAL_GATHER_LIST], or count if that is less
-    float noise;         // standard deviation of the mean of the channels, over the RMS light
-    float level;         // mean light
-    float factor;        // true variance over that of the replicates
-    uint32_t pass;
+    uint8_t *marked; // [texels] to be traced next
+    uint32_t *list;  // [ALPI_FINAL_GATHER_LIST], or count if that is less
+    float noise;     // standard deviation of the mean of the channels, over the RMS light
+    float mean;      // of the light
+    float factor;    // true variance over that of the replicates
+    uint32_t level;
     bool flood;
-    uint64_t gathered, expected; // texels, held-out ones included
+    uint64_t sent, expected; // texels that traced rays, held-out ones included
 } alpi_final_gather_job;
-
-uint32_t alpi_final_gather_count_traced(const alpi_final_gather_job *job);
 
 // --- rays (final_gather_rays.c) ------------------------------------------------------------------
 
 /// Multiplies a variance by job->factor.
 void alpi_final_gather_scale(const alpi_final_gather_job *job, alpi_reference_value *value);
-/// Traces all wanted texels of a list. @return ALP_OK; CANCELLED
-alp_result alpi_final_gather_trace_wanted(alpi_final_gather_job *job, alpi_texel_list texels);
+/// Traces all marked texels and clears the marks. @return ALP_OK; CANCELLED
+alp_result alpi_final_gather_trace_marked(alpi_final_gather_job *job);
 /// Fills job->list with up to `most` texels of a state, evenly and at random.
 /// @param count of the texels of that state   @return the number chosen
 uint32_t alpi_final_gather_choose(const alpi_final_gather_job *job, alpi_texel_state state,
@@ -47,6 +37,14 @@ uint32_t alpi_final_gather_choose(const alpi_final_gather_job *job, alpi_texel_s
 /// @return ALP_OK; CANCELLED
 alp_result alpi_final_gather_measure(alpi_final_gather_job *job, uint32_t count,
                                      const alpi_gatherer *gatherer, alpi_reference_value *found);
+
+// --- interpolated light (stencil_light.c) --------------------------------------------------------
+
+/// Interpolates the means of a texel, at least 0, and the sky's part of them.
+void alpi_stencil_light(const alpi_gather_job *gather, uint32_t texel, const alpi_stencil *stencil);
+/// Interpolates gather->directional, unless NULL.
+void alpi_stencil_directional(const alpi_gather_job *gather, uint32_t texel,
+                              const alpi_stencil *stencil);
 
 // --- errors --------------------------------------------------------------------------------------
 

@@ -21,9 +21,9 @@ static alp_result gather_list(alpi_final_gather_job *job, uint32_t count, alpi_g
     const double rays = (double)gather.gatherer->packet_count * ALPI_PACKET;
     alpi_task_progress progress = job->progress;
     progress.units_before = (double)job->report->rays;
-    progress.units_total = fmax((double)job->expected, (double)job->gathered + count) * rays;
+    progress.units_total = fmax((double)job->expected, (double)job->sent + count) * rays;
     job->report->rays += (uint64_t)(count * rays);
-    job->gathered += count;
+    job->sent += count;
     return alpi_gather_irradiance(&gather, &progress);
 }
 
@@ -40,13 +40,13 @@ static alp_result trace_listed(alpi_final_gather_job *job, uint32_t count)
     return ALP_OK;
 }
 
-alp_result alpi_final_gather_trace_wanted(alpi_final_gather_job *job, alpi_texel_list texels)
+alp_result alpi_final_gather_trace_marked(alpi_final_gather_job *job)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < texels.count; i++) {
-        const uint32_t t = texels.texels[i];
-        if (job->wanted[t] != 0) {
-            job->wanted[t] = 0;
+    for (uint32_t i = 0; i < job->options->count; i++) {
+        const uint32_t t = job->options->order[i];
+        if (job->marked[t] != 0) {
+            job->marked[t] = 0;
             job->list[count++] = t;
         }
         if (count == ALPI_FINAL_GATHER_LIST) {

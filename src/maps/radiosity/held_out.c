@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "maps/radiosity/held_out.h"
+// The error of interpolation, measured at held-out texels.
+#include "maps/radiosity/final_gather_job.h"
 
 #include "base/memory.h"
-#include "maps/radiosity/final_gather_job.h"
 
 #include <math.h>
 #include <string.h>

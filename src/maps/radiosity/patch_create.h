@@ -5,12 +5,11 @@
 
 #include "maps/radiosity/patches.h"
 
-enum { ALPI_PATCH_SPACING_LIMIT = 16, ALPI_PATCH_TEXEL_LIMIT = 16 * 16 };
+enum { ALPI_PATCH_TEXEL_LIMIT = ALPI_PATCH_SIDE * ALPI_PATCH_SIDE };
 
 /// Groups all texels whose `patch_of` is not ALPI_NONE into patches, and numbers them.
-/// @param spacing side of a patch in texels
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
-alp_result alpi_patches_split(alpi_patches *patches, uint32_t spacing);
+alp_result alpi_patches_split(alpi_patches *patches);
 /// Makes `triangles`, and fills `places` (all ones before) and `chart_texels` (ALPI_NONE before).
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patch_places_create(alpi_patches *patches);

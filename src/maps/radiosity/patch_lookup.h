@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Look-up of light: from a hit to its pixel, its texel and its cell. alpi_patches_find and
-// alpi_patches_light of patches.h are implemented here too.
+// Look-up of light: from a hit to its pixel, its texel and its cell. patch_lookup.c also implements
+// alpi_patches_find and alpi_patches_light of patches.h.
 #ifndef ALPI_MAPS_PATCH_LOOKUP_H
 #define ALPI_MAPS_PATCH_LOOKUP_H
 
@@ -27,6 +27,16 @@ alpi_patches_place_at(const alpi_patches *p, const alpi_patch_triangle *t, float
     return on ? &p->places[alpi_lattice_pixel(l, t->page, x, y)] : NULL;
 }
 
+/// The place at the pixel of a texel.
+static inline alpi_patch_place *alpi_patches_own_place(const alpi_patches *p, uint32_t texel)
+{
+    const uint16_t *pixel = p->texels->pixels[texel];
+    return &p->places[alpi_lattice_pixel(p->lattice, p->texels->pages[texel], pixel[0], pixel[1])];
+}
+
+/// The nearest texel of a chart with light of its own, up to `rings` pixels away; else ALPI_NONE.
+uint32_t alpi_patches_search(const alpi_patches *p, uint32_t page, const int32_t at[2],
+                             uint32_t chart, int rings);
 /// The texel of a point whose pixel is off its chart. The chart may still cover a corner of it.
 uint32_t alpi_patches_find_nearest(const alpi_patches *p, const alpi_patch_triangle *t, float b1,
                                    float b2);

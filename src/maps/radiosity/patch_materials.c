@@ -93,19 +93,19 @@ static alp_result measure_range(void *user, uint32_t begin, uint32_t end, uint32
 {
     (void)worker;
     const alpi_patches *p = user;
-    uint32_t known = ALPI_NONE; // the last even texel: the next one often has the same material
+    uint32_t last = ALPI_NONE; // even texel: the next one often has the same material
     for (uint32_t t = begin; t < end; t++) {
         set_sides(p, t);
         const bool even = is_even(p, t);
-        if (even && known != ALPI_NONE &&
-            material_of(p->scene, p->texels->triangles[known]) ==
+        if (even && last != ALPI_NONE &&
+            material_of(p->scene, p->texels->triangles[last]) ==
                 material_of(p->scene, p->texels->triangles[t])) {
-            memcpy(p->reflectances[t], p->reflectances[known], sizeof *p->reflectances);
-            p->emissions[t] = p->emissions[known];
+            memcpy(p->reflectances[t], p->reflectances[last], sizeof *p->reflectances);
+            p->emissions[t] = p->emissions[last];
             continue;
         }
         measure_texel(p, t, even);
-        known = even ? t : known;
+        last = even ? t : last;
     }
     return ALP_OK;
 }

@@ -6,38 +6,6 @@
 #include "base/tasks.h"
 #include "maps/radiosity/patch_create.h"
 
-static alpi_patch_place *place_of(const alpi_patches *p, uint32_t texel)
-{
-    const uint16_t *pixel = p->texels->pixels[texel];
-    return &p->places[alpi_lattice_pixel(p->lattice, p->texels->pages[texel], pixel[0], pixel[1])];
-}
-
-/// Whether a texel belongs to a chart and has light of its own.
-static bool has_own_light(const alpi_patches *p, uint32_t texel, uint32_t chart)
-{
-    const alpi_patch_place *place = place_of(p, texel);
-    return place->chart == chart && place->texel == texel;
-}
-
-/// The nearest texel of a chart with light of its own, up to `rings` pixels away; else ALPI_NONE.
-static uint32_t find_nearest(const alpi_patches *p, uint32_t page, int64_t x, int64_t y,
-                             uint32_t chart, int rings)
-{
-    uint32_t best = ALPI_NONE;
-    int best_distance = INT32_MAX;
-    for (int dy = -rings; dy <= rings; dy++) {
-        for (int dx = -rings; dx <= rings; dx++) {
-            const uint32_t t = alpi_lattice_texel(p->lattice, page, x + dx, y + dy);
-            const int distance = dx * dx + dy * dy;
-            if (t != ALPI_NONE && distance < best_distance && has_own_light(p, t, chart)) {
-                best = t;
-                best_distance = distance;
-            }
-        }
-    }
-    return best;
-}
-
 /// Fills the places of texels with light of their own, with themselves.
 static alp_result find_own_places(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
@@ -45,7 +13,8 @@ static alp_result find_own_places(void *user, uint32_t begin, uint32_t end, uint
     const alpi_patches *p = user;
     for (uint32_t t = begin; t < end; t++) {
         const bool lit = p->patch_of[t] != ALPI_NONE;
-        *place_of(p, t) = (alpi_patch_place){p->texels->charts[t], lit ? t : ALPI_NONE};
+        *alpi_patches_own_place(p, t) =
+            (alpi_patch_place){p->texels->charts[t], lit ? t : ALPI_NONE};
     }
     return ALP_OK;
 }
@@ -63,13 +32,13 @@ static void find_other_places(const alpi_patches *p)
         }
     }
     for (uint32_t t = 0; t < texels->count; t++) {
-        const uint16_t *pixel = texels->pixels[t];
+        const int32_t pixel[2] = {texels->pixels[t][0], texels->pixels[t][1]};
         const uint32_t chart = texels->charts[t];
         if (p->patch_of[t] != ALPI_NONE) {
             continue;
         }
-        alpi_patch_place *place = place_of(p, t);
-        place->texel = find_nearest(p, texels->pages[t], pixel[0], pixel[1], chart, RINGS);
+        alpi_patch_place *place = alpi_patches_own_place(p, t);
+        place->texel = alpi_patches_search(p, texels->pages[t], pixel, chart, RINGS);
         if (place->texel == ALPI_NONE && chart != ALPI_NONE) {
             place->texel = p->chart_texels[chart];
         }
@@ -107,13 +76,4 @@ alp_result alpi_patch_places_create(alpi_patches *patches)
     ALP_TRY(alpi_tick(patches->context, "light", 0, 1));
     return alpi_parallel_for(patches->context, triangles, TRIANGLES_PER_RANGE, find_triangles,
                              patches, &progress);
-}
-
-uint32_t alpi_patches_find_nearest(const alpi_patches *p, const alpi_patch_triangle *t, float b1,
-                                   float b2)
-{
-    int32_t at[2];
-    alpi_patches_pixel(t, b1, b2, at);
-    const uint32_t nearest = find_nearest(p, t->page, at[0], at[1], t->chart, 1);
-    return nearest != ALPI_NONE ? nearest : p->chart_texels[t->chart];
 }

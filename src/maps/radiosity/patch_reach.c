@@ -11,10 +11,10 @@ static const float SHARE = 0.1f, LONGEST = 8.0f;
 
 typedef struct reach_job {
     const alpi_patches *patches;
-    float level; // mean over the fronts, channels summed
+    float mean; // light of the fronts, channels summed
 } reach_job;
 
-static float level_of(const float cell[4])
+static float light_of(const float cell[4])
 {
     return cell[0] + cell[1] + cell[2];
 }
@@ -22,18 +22,14 @@ static float level_of(const float cell[4])
 /// The largest difference to a neighbour of the same chart.
 static float find_contrast(const alpi_patches *p, uint32_t texel, alpi_side side)
 {
-    const uint16_t *pixel = p->texels->pixels[texel];
-    const float own = level_of(p->cells[alpi_patches_cell(p, texel, side)]);
+    uint32_t around[ALPI_AROUND_LIMIT];
+    const uint32_t count = alpi_lattice_around(p->lattice, texel, around);
+    const float own = light_of(p->cells[alpi_patches_cell(p, texel, side)]);
     float most = 0.0f;
-    for (int dy = -1; dy <= 1; dy++) {
-        for (int dx = -1; dx <= 1; dx++) {
-            const uint32_t t = alpi_lattice_texel(p->lattice, p->texels->pages[texel],
-                                                  pixel[0] + dx, pixel[1] + dy);
-            if (t == ALPI_NONE || p->texels->charts[t] != p->texels->charts[texel] ||
-                p->patch_of[t] == ALPI_NONE) {
-                continue;
-            }
-            most = fmaxf(most, fabsf(level_of(p->cells[alpi_patches_cell(p, t, side)]) - own));
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t t = around[i];
+        if (p->texels->charts[t] == p->texels->charts[texel] && p->patch_of[t] != ALPI_NONE) {
+            most = fmaxf(most, fabsf(light_of(p->cells[alpi_patches_cell(p, t, side)]) - own));
         }
     }
     return most;
@@ -49,7 +45,7 @@ static alp_result set_range(void *user, uint32_t begin, uint32_t end, uint32_t w
             continue;
         }
         for (int of = ALPI_FRONT; of <= (p->two_sided ? ALPI_BACK : ALPI_FRONT); of++) {
-            const float contrast = find_contrast(p, t, (alpi_side)of) / job->level;
+            const float contrast = find_contrast(p, t, (alpi_side)of) / job->mean;
             const float reach = fminf(fmaxf(cbrtf(contrast / SHARE), 1.0f), LONGEST);
             p->cells[alpi_patches_cell(p, t, (alpi_side)of)][ALPI_CELL_SIDE] =
                 reach * alpi_texels_side(p->texels, t);
@@ -58,12 +54,12 @@ static alp_result set_range(void *user, uint32_t begin, uint32_t end, uint32_t w
     return ALP_OK;
 }
 
-static void sum_levels(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
+static void sum_light(const void *user, uint32_t begin, uint32_t end, double sums[ALPI_SUM_LIMIT])
 {
     const alpi_patches *p = user;
     for (uint32_t t = begin; t < end; t++) {
         if (p->patch_of[t] != ALPI_NONE) {
-            sums[0] += (double)level_of(p->cells[alpi_patches_cell(p, t, ALPI_FRONT)]);
+            sums[0] += (double)light_of(p->cells[alpi_patches_cell(p, t, ALPI_FRONT)]);
             sums[1] += 1.0;
         }
     }
@@ -74,8 +70,8 @@ alp_result alpi_patches_set_reach(const alpi_patches *patches, const alpi_task_p
     double sums[ALPI_SUM_LIMIT] = {0.0};
     alpi_task_progress silent = *progress;
     silent.units_total = 0.0;
-    ALP_TRY(alpi_parallel_sum(patches->context, patches->texels->count, sum_levels, patches,
-                              &silent, sums));
+    ALP_TRY(alpi_parallel_sum(patches->context, patches->texels->count, sum_light, patches, &silent,
+                              sums));
     if (!(sums[0] > 0.0)) {
         return ALP_OK; // all is dark
     }

@@ -25,11 +25,11 @@ typedef struct page_square {
 } page_square;
 
 static void list_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
-                        uint32_t spacing, page_square *s)
+                        uint32_t side, page_square *s)
 {
     s->count = 0;
-    for (uint32_t y = y0; y < y0 + spacing; y++) {
-        for (uint32_t x = x0; x < x0 + spacing; x++) {
+    for (uint32_t y = y0; y < y0 + side; y++) {
+        for (uint32_t x = x0; x < x0 + side; x++) {
             const uint32_t t = alpi_lattice_texel(p->lattice, page, x, y);
             if (t != ALPI_NONE && p->patch_of[t] != ALPI_NONE) {
                 s->texels[s->count++] = t;
@@ -67,35 +67,32 @@ static void take_patch(const alpi_patches *p, page_square *s, square_row *row)
     s->count = left;
 }
 
-/// Side of the patches of a square, by alpi_patch_rule. A texel that lies partly in a solid shows
-/// the light of its other part, unlike its neighbours.
-static uint32_t choose_side(const alpi_patches *p, const page_square *s, uint32_t spacing)
+/// Side of the patches of a square (patches.h). A texel that lies partly in a solid shows the light
+/// of its other part, unlike its neighbours.
+static uint32_t choose_side(const alpi_patches *p, const page_square *s)
 {
-    uint32_t side = spacing;
+    uint32_t side = ALPI_PATCH_SIDE;
     for (uint32_t i = 0; i < s->count && p->proximity != NULL; i++) {
         const uint32_t t = s->texels[i];
         if ((p->texels->valid != NULL && p->texels->valid[t] != 0) ||
             p->proximity[t] == ALPI_TOUCHING) {
             return 1;
         }
-        side = p->proximity[t] == ALPI_FAR ? side : spacing % 2 == 0 ? spacing / 2 : 1;
+        side = p->proximity[t] == ALPI_FAR ? side : ALPI_PATCH_SIDE / 2;
     }
     return side;
 }
 
 /// Makes patches of one square of a page, or of smaller squares near other surfaces.
 static void split_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint32_t y0,
-                         uint32_t spacing, square_row *row)
+                         square_row *row)
 {
     page_square s;
-    list_square(p, page, x0, y0, spacing, &s);
-    const uint32_t part = choose_side(p, &s, spacing);
-    while (part == spacing && s.count > 0) {
-        take_patch(p, &s, row);
-    }
-    for (uint32_t y = y0; y < y0 + spacing && part < spacing; y += part) {
-        for (uint32_t x = x0; x < x0 + spacing; x += part) {
-            list_square(p, page, x, y, part, &s);
+    list_square(p, page, x0, y0, ALPI_PATCH_SIDE, &s);
+    const uint32_t side = choose_side(p, &s);
+    for (uint32_t y = y0; y < y0 + ALPI_PATCH_SIDE; y += side) {
+        for (uint32_t x = x0; x < x0 + ALPI_PATCH_SIDE; x += side) {
+            list_square(p, page, x, y, side, &s);
             while (s.count > 0) {
                 take_patch(p, &s, row);
             }
@@ -105,8 +102,8 @@ static void split_square(const alpi_patches *p, uint32_t page, uint32_t x0, uint
 
 typedef struct split_job {
     const alpi_patches *patches;
-    uint32_t spacing, rows; // of squares, of each page
-    square_row *all;        // [pages × rows]
+    uint32_t rows;   // of each page
+    square_row *all; // [pages × rows]
 } split_job;
 
 /// Counts the texels of each row that have light of their own.
@@ -117,8 +114,8 @@ static alp_result count_rows(void *user, uint32_t begin, uint32_t end, uint32_t 
     const alpi_patches *p = job->patches;
     const alpi_lattice *l = p->lattice;
     for (uint32_t r = begin; r < end; r++) {
-        const uint32_t page = r / job->rows, y0 = r % job->rows * job->spacing;
-        const uint32_t rows = l->height - y0 < job->spacing ? l->height - y0 : job->spacing;
+        const uint32_t page = r / job->rows, y0 = r % job->rows * ALPI_PATCH_SIDE;
+        const uint32_t rows = l->height - y0 < ALPI_PATCH_SIDE ? l->height - y0 : ALPI_PATCH_SIDE;
         const uint32_t *texels = &l->grid[alpi_lattice_pixel(l, page, 0, y0)];
         uint32_t count = 0;
         for (size_t i = 0; i < (size_t)l->width * rows; i++) {
@@ -134,9 +131,9 @@ static alp_result split_rows(void *user, uint32_t begin, uint32_t end, uint32_t 
     (void)worker;
     const split_job *job = user;
     for (uint32_t r = begin; r < end; r++) {
-        const uint32_t page = r / job->rows, y0 = r % job->rows * job->spacing;
-        for (uint32_t x = 0; x < job->patches->lattice->width; x += job->spacing) {
-            split_square(job->patches, page, x, y0, job->spacing, &job->all[r]);
+        const uint32_t page = r / job->rows, y0 = r % job->rows * ALPI_PATCH_SIDE;
+        for (uint32_t x = 0; x < job->patches->lattice->width; x += ALPI_PATCH_SIDE) {
+            split_square(job->patches, page, x, y0, &job->all[r]);
         }
     }
     return ALP_OK;
@@ -170,13 +167,13 @@ static void join_rows(alpi_patches *p, uint32_t count, square_row *rows)
     p->patch_first[p->patch_count] = count > 0 ? rows[count - 1].placed : 0;
 }
 
-alp_result alpi_patches_split(alpi_patches *patches, uint32_t spacing)
+alp_result alpi_patches_split(alpi_patches *patches)
 {
     alpi_patches *p = patches;
     enum { ROWS_PER_RANGE = 4 };
-    const uint32_t rows = (p->lattice->height + spacing - 1) / spacing;
+    const uint32_t rows = (p->lattice->height + ALPI_PATCH_SIDE - 1) / ALPI_PATCH_SIDE;
     const uint32_t count = p->lattice->page_count * rows;
-    split_job job = {p, spacing, rows, ALPI_NEW(p->context, square_row, count)};
+    split_job job = {p, rows, ALPI_NEW(p->context, square_row, count)};
     if (job.all == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }

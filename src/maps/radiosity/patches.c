@@ -66,7 +66,7 @@ static alp_result allocate_rest(alpi_patches *p)
     return ALP_OK;
 }
 
-static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count, uint32_t spacing)
+static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count)
 {
     const uint32_t texels = p->texels->count, charts = count_charts(p);
     ALP_TRY(allocate_most(p, count));
@@ -76,14 +76,14 @@ static alp_result create(alpi_patches *p, const uint32_t *order, uint32_t count,
     for (uint32_t i = 0; i < count; i++) {
         p->patch_of[order[i]] = 0; // not ALPI_NONE: to be grouped
     }
-    ALP_TRY(alpi_patches_split(p, spacing));
+    ALP_TRY(alpi_patches_split(p));
     ALP_TRY(allocate_rest(p));
     ALP_TRY(alpi_patch_places_create(p));
     return alpi_patches_measure_materials(p);
 }
 
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count, const alpi_patch_rule *rule,
+                               const uint32_t *order, uint32_t count, const uint8_t *proximity,
                                alpi_patches *patches)
 {
     *patches = (alpi_patches){.context = lattice->context,
@@ -91,10 +91,10 @@ alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atl
                               .atlas = atlas,
                               .texels = lattice->texels,
                               .lattice = lattice,
-                              .proximity = rule->proximity,
+                              .proximity = proximity,
                               .two_sided = alpi_patches_are_two_sided(atlas->scene)};
-    const alp_result result = create(patches, order, count, rule->spacing);
-    patches->proximity = NULL; // borrowed for this call
+    const alp_result result = create(patches, order, count);
+    patches->proximity = NULL;
     if (result != ALP_OK) {
         alpi_patches_destroy(patches);
     }

@@ -38,7 +38,7 @@ typedef struct alpi_patches {
     const alp_atlas *atlas;
     const alpi_texels *texels;
     const alpi_lattice *lattice;
-    const uint8_t *proximity;       // of the rule; NULL after alpi_patches_create
+    const uint8_t *proximity;       // borrowed by alpi_patches_create, NULL after it
     alpi_patch_triangle *triangles; // [triangles of the scene]
     alpi_patch_place *places;       // [pages][height][width]
     uint32_t *chart_texels;         // [charts] a texel of each, ALPI_NONE where it has none
@@ -56,19 +56,15 @@ typedef struct alpi_patches {
     uint8_t *seen_backs; // [patches] alpi_back, if two_sided; look-ups set SEEN atomically
 } alpi_patches;
 
-/// How texels are grouped.
-typedef struct alpi_patch_rule {
-    uint32_t spacing; // side of a patch in texels, [1, 16]; 1: each texel is a patch
-    // [texels] alpi_proximity, or NULL. Bounced light changes fast near other surfaces: there, the
-    // side is halved (1 if the spacing is odd). It is 1 where a surface touches any of the texels,
-    // or any lies partly in a solid.
-    const uint8_t *proximity;
-} alpi_patch_rule;
+enum { ALPI_PATCH_SIDE = 4 }; // texels
 
+/// Bounced light changes fast near other surfaces: there, the side of patches is halved. It is 1
+/// where a surface touches any of the texels, or any lies partly in a solid.
+/// @param proximity [texels] alpi_proximity, or NULL: all are far
 /// @param order [count] texels with light of their own, neighbours together
 /// @return ALP_OK; OUT_OF_MEMORY; CANCELLED
 alp_result alpi_patches_create(const alpi_lattice *lattice, const alp_atlas *atlas,
-                               const uint32_t *order, uint32_t count, const alpi_patch_rule *rule,
+                               const uint32_t *order, uint32_t count, const uint8_t *proximity,
                                alpi_patches *patches);
 void alpi_patches_destroy(alpi_patches *patches);
 /// Frees all but the data of look-ups: the patches, also as receivers, and materials.

@@ -14,20 +14,8 @@ alpi_radiosity_options alpi_radiosity_options_default(void)
 {
     return (alpi_radiosity_options){.bounces = UINT32_MAX,
                                     .tolerance = alpi_radiosity_tolerance(UINT32_MAX),
-                                    .patch_rule = {.spacing = 4},
                                     .direct_samples = 16,
                                     .kept_limit = 1ull << 30};
-}
-
-alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
-{
-    const alpi_radiosity_options *o = &radiosity->options;
-    return (alpi_gather_scene){.scene = o->scene,
-                               .tracer = o->tracer,
-                               .lighting = o->lighting,
-                               .filter = o->filter,
-                               .light = alpi_patches_light(&radiosity->patches),
-                               .sky = o->direct != o->lighting};
 }
 
 static alp_result allocate(alpi_radiosity *r)
@@ -93,8 +81,8 @@ alp_result alpi_radiosity_solve(const alpi_radiosity_options *options, const alp
     *radiosity = (alpi_radiosity){.options = *options};
     alpi_solver s = {.r = radiosity};
     s.progress = progress != NULL ? *progress : (alpi_task_progress){0};
-    ALP_TRY(alpi_patches_create(lattice, atlas, order, count, &options->patch_rule,
-                                &radiosity->patches));
+    ALP_TRY(
+        alpi_patches_create(lattice, atlas, order, count, options->proximity, &radiosity->patches));
     alp_result result = solve(&s, order, count);
     alpi_kept_rays_destroy(&s.kept);
     alpi_acceleration_destroy(options->context, &s.acceleration);

@@ -31,15 +31,15 @@ typedef struct alpi_radiosity_options { // all pointers are borrowed
     alpi_trace_filter filter;
     const alpi_gatherer *gatherer; // of patches
     uint32_t bounces;              // limit, ≥ 1; above PASS_LIMIT: until the tolerance is met
-    double tolerance; // passes end when later ones would add a smaller share of all light
-    double ray_limit; // of the passes, if panes prevent that rays are kept; 0: none
-    alpi_patch_rule patch_rule;
-    uint32_t direct_samples; // of each light at each texel
-    bool directional;        // also computes the direction of direct light
-    uint64_t kept_limit;     // bytes of kept rays, within the budget; if they need more, each pass
-                             // traces its rays again
-    bool backs;              // true: all backs of double-sided materials gather; false: those that
-                             // the rays of other receivers meet, enough for light on fronts
+    double tolerance;         // passes end when later ones would add a smaller share of all light
+    double ray_limit;         // of the passes, if panes prevent that rays are kept; 0: none
+    const uint8_t *proximity; // [texels] of alpi_patches_create
+    uint32_t direct_samples;  // of each light at each texel
+    bool directional;         // also computes the direction of direct light
+    uint64_t kept_limit;      // bytes of kept rays, within the budget; if they need more, each pass
+                              // traces its rays again
+    bool backs;               // true: all backs of double-sided materials gather; false: those that
+                              // the rays of other receivers meet, enough for light on fronts
     uint64_t seed;
     alpi_layer_arrays *layers; // NULL, or filled, except `bounced`
 } alpi_radiosity_options;
@@ -53,8 +53,7 @@ enum { ALPI_RADIOSITY_PATCH_RAYS = 64 }; // cosine rays of a patch
 /// Energy balance: fluxes in W, means of the channels, integrals over the areas of the receivers.
 /// Within the noise of the rays, emitted = absorbed + escaped + lost_behind + unshot.
 typedef struct alpi_energy {
-    double emitted;  // by surfaces, plus direct light of lamps, suns and sky
-    double received; // direct light alone
+    double emitted; // by surfaces, plus direct light of lamps, suns and sky
     double absorbed;
     double escaped;     // out of the scene, by the rays that hit nothing
     double lost_behind; // into black backs of surfaces, by the rays that hit them

@@ -2,7 +2,7 @@
 #include "maps/radiosity/regather.h"
 
 #include "base/memory.h"
-#include "maps/radiosity/stencil_light.h"
+#include "maps/radiosity/final_gather_job.h"
 
 static alpi_gather_job job_of(const alpi_regather *r)
 {
@@ -11,6 +11,12 @@ static alpi_gather_job job_of(const alpi_regather *r)
     job.count = r->traced;
     job.skies = NULL;
     return job;
+}
+
+static void interpolate(void *user, uint32_t texel, const alpi_stencil *stencil)
+{
+    const alpi_regather *r = user;
+    alpi_stencil_light(r->options.gather, texel, stencil);
 }
 
 static alp_result prepare(alpi_regather *r, uint64_t kept_limit, const alpi_task_progress *progress)
@@ -42,8 +48,8 @@ alp_result alpi_regather_create(const alpi_final_gather_options *options,
                                 const alpi_lattice *lattice, uint8_t *states, uint64_t kept_limit,
                                 const alpi_task_progress *progress, alpi_regather *regather)
 {
-    *regather = (alpi_regather){
-        .options = *options, .lattice = alpi_final_gather_lattice(options, lattice, states, NULL)};
+    *regather = (alpi_regather){.options = *options,
+                                .lattice = alpi_final_gather_lattice(lattice, states, NULL)};
     const alp_result result = prepare(regather, kept_limit, progress);
     if (result != ALP_OK) {
         alpi_regather_destroy(regather);
@@ -71,16 +77,6 @@ alp_result alpi_regather_run(alpi_regather *regather, const alpi_task_progress *
         ALP_TRY(alpi_gather_irradiance(&job, progress));
         regather->rays += (uint64_t)regather->traced * job.gatherer->packet_count * ALPI_PACKET;
     }
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        for (uint32_t i = 0; i < regather->options.count; i++) {
-            const uint32_t t = regather->options.order[i];
-            alpi_stencil stencil;
-            if (regather->lattice.states[t] == ALPI_TEXEL_INTERPOLATED &&
-                alpi_lattice_pass(regather->lattice.texels->pixels[t]) == pass &&
-                alpi_lattice_stencil(&regather->lattice, t, &stencil)) {
-                alpi_stencil_light(regather->options.gather, t, &stencil);
-            }
-        }
-    }
-    return ALP_OK;
+    return alpi_lattice_for_stencils(&regather->lattice, regather->options.order,
+                                     regather->options.count, interpolate, regather, NULL);
 }

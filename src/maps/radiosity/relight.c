@@ -1,10 +1,48 @@
 // SPDX-License-Identifier: MIT
 // Lighting of cells: a cell reflects direct light, the soft sky and the light of the last pass.
+// Receivers gather from the cells.
 #include "maps/radiosity/radiosity.h"
 
 #include "base/tasks.h"
 
+#include <math.h>
+
 enum { TEXELS_PER_RANGE = 4096 };
+
+// --- texels partly in a solid --------------------------------------------------------------------
+
+/// Mean share of rays that do not end on a back, over those neighbours in the same chart that are
+/// outside all solids. 1 if there are none.
+static float neighbours_open_share(const alpi_radiosity *r, uint32_t texel)
+{
+    const alpi_patches *p = &r->patches;
+    const alpi_texels *t = p->texels;
+    uint32_t around[ALPI_AROUND_LIMIT], count = 0;
+    const uint32_t all = alpi_lattice_around(p->lattice, texel, around);
+    float sum = 0.0f;
+    for (uint32_t i = 0; i < all; i++) {
+        const uint32_t n = around[i];
+        if (t->charts[n] == t->charts[texel] && p->patch_of[n] != ALPI_NONE && t->valid[n] == 0 &&
+            (t->flags[n] & ALPI_TEXEL_HIDDEN) == 0) {
+            sum += 1.0f - r->lost[p->patch_of[n]][1];
+            count++;
+        }
+    }
+    return count > 0 ? sum / (float)count : 1.0f;
+}
+
+float alpi_radiosity_visible_gain(const alpi_radiosity *r, uint32_t texel, uint32_t patch)
+{
+    const float most = 4.0f; // few rays must not turn a corner into a light
+    const alpi_texels *texels = r->patches.texels;
+    if (texels->valid == NULL || texels->valid[texel] == 0) {
+        return 1.0f;
+    }
+    const float around = neighbours_open_share(r, texel), own = 1.0f - r->lost[patch][1];
+    return fminf(fmaxf(around / fmaxf(own, 1.0f / most), 1.0f), most);
+}
+
+// --- cells ---------------------------------------------------------------------------------------
 
 typedef struct relight_job {
     const alpi_radiosity *radiosity;
@@ -65,4 +103,15 @@ alp_result alpi_radiosity_relight(const alpi_radiosity *radiosity, uint32_t laye
     relight_job job = {radiosity, layer, gathered};
     return alpi_parallel_for(radiosity->options.context, radiosity->patches.texels->count,
                              TEXELS_PER_RANGE, relight_range, &job, progress);
+}
+
+alpi_gather_scene alpi_radiosity_scene(const alpi_radiosity *radiosity)
+{
+    const alpi_radiosity_options *o = &radiosity->options;
+    return (alpi_gather_scene){.scene = o->scene,
+                               .tracer = o->tracer,
+                               .lighting = o->lighting,
+                               .filter = o->filter,
+                               .light = alpi_patches_light(&radiosity->patches),
+                               .sky = o->direct != o->lighting};
 }

@@ -51,7 +51,7 @@ static alp_result solve(const alpi_solution_options *o, const alpi_task_progress
                                  .seed = o->seed};
     s->gatherer = alpi_cosine_rays_gatherer(&s->rays);
     alpi_radiosity_options options = alpi_radiosity_options_default();
-    options.patch_rule.proximity = s->validity.proximity;
+    options.proximity = s->validity.proximity;
     options.context = s->context;
     options.scene = o->scene;
     options.tracer = o->tracer;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "maps/radiosity/stencil_light.h"
+// Interpolation of gathered light by the stencils of the lattice.
+#include "maps/radiosity/final_gather_job.h"
 
 #include <math.h>
 

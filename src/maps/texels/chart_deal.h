@@ -1,35 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Lists of texels chart by chart: charts look in different directions, and rays in different
-// directions are slow company. Where few texels of a page are listed, eight that follow each other
-// would often be of several charts.
+// Sorts lists of texels by chart. Charts face different directions, and packets of rays in
+// different directions are slow.
 #ifndef ALPI_MAPS_CHART_DEAL_H
 #define ALPI_MAPS_CHART_DEAL_H
 
 #include "base/context.h"
 
-/// Places of the texels of each chart in a list: clear, count every texel, start, then ask for the
-/// place of every texel once more. Texels of a chart keep their order.
+/// A counting sort: clear, count each texel, start, then read the place of each texel once. Texels
+/// of a chart keep their order.
 typedef struct alpi_chart_deal {
     alp_context *context;
     const uint32_t *charts; // [texels]
     uint32_t first, count;  // charts
-    uint32_t *places;       // [count] texels of each, then the next one's place
+    uint32_t *places;       // [count] texels of each chart, then the place of its next one
 } alpi_chart_deal;
 
-/// Readies for the charts of some texels: it costs as much as these, and as the numbers
-/// from the least of their charts to the greatest.
+/// Allocates for the charts of some texels. Time and memory grow with these texels, and with the
+/// difference between their least and greatest chart.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_chart_deal_open(alp_context *context, const uint32_t *charts,
                                 const uint32_t *texels, uint32_t texel_count,
                                 alpi_chart_deal *deal);
-void alpi_chart_deal_close(alpi_chart_deal *deal); ///< nothing for one that was zeroed
+void alpi_chart_deal_close(alpi_chart_deal *deal); ///< zeroed: does nothing
 
 void alpi_chart_deal_clear(alpi_chart_deal *deal);
 static inline void alpi_chart_deal_count(alpi_chart_deal *deal, uint32_t texel)
 {
     deal->places[deal->charts[texel] - deal->first]++;
 }
-/// After the last was counted. @return how many there are
+/// Begins the places, after all texels are counted. @return their number
 uint32_t alpi_chart_deal_start(alpi_chart_deal *deal);
 static inline uint32_t alpi_chart_deal_place(alpi_chart_deal *deal, uint32_t texel)
 {

@@ -2,7 +2,6 @@
 #include "maps/texels/lattice.h"
 
 #include "base/memory.h"
-#include "base/tasks.h"
 
 #include <string.h>
 
@@ -22,6 +21,21 @@ uint32_t alpi_lattice_texel(const alpi_lattice *l, uint32_t page, int64_t x, int
         return ALPI_NONE;
     }
     return l->grid[alpi_lattice_pixel(l, page, (uint32_t)x, (uint32_t)y)];
+}
+
+uint32_t alpi_lattice_around(const alpi_lattice *l, uint32_t texel,
+                             uint32_t around[ALPI_AROUND_LIMIT])
+{
+    const uint16_t *p = l->texels->pixels[texel];
+    uint32_t count = 0;
+    for (int k = 0; k < ALPI_AROUND_LIMIT; k++) {
+        const int64_t x = (int64_t)p[0] + k % 3 - 1, y = (int64_t)p[1] + k / 3 - 1;
+        const uint32_t t = alpi_lattice_texel(l, l->texels->pages[texel], x, y);
+        if (t != ALPI_NONE) {
+            around[count++] = t;
+        }
+    }
+    return count;
 }
 
 static alp_result fill_grid(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -168,91 +182,21 @@ void alpi_lattice_destroy(alpi_lattice *lattice)
     *lattice = (alpi_lattice){0};
 }
 
-// --- passes --------------------------------------------------------------------------------------
+// --- levels --------------------------------------------------------------------------------------
 
-uint32_t alpi_lattice_pass(const uint16_t pixel[2])
+uint32_t alpi_lattice_level(const uint16_t pixel[2])
 {
-    static const uint8_t passes[ALPI_LATTICE_SPACING][ALPI_LATTICE_SPACING] = {
+    static const uint8_t levels[ALPI_LATTICE_SPACING][ALPI_LATTICE_SPACING] = {
         {0, 3, 1, 3}, {3, 5, 4, 5}, {1, 4, 2, 4}, {3, 5, 4, 5}};
-    return passes[pixel[1] % ALPI_LATTICE_SPACING][pixel[0] % ALPI_LATTICE_SPACING];
+    return levels[pixel[1] % ALPI_LATTICE_SPACING][pixel[0] % ALPI_LATTICE_SPACING];
 }
 
-uint32_t alpi_lattice_reach(uint32_t pass)
+uint32_t alpi_lattice_reach(uint32_t level)
 {
-    return pass <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
+    return level <= 2 ? ALPI_LATTICE_SPACING / 2 : ALPI_LATTICE_SPACING / 4;
 }
 
 bool alpi_lattice_is_coarse(const uint16_t pixel[2])
 {
     return pixel[0] % 2 == 0 && pixel[1] % 2 == 0;
-}
-
-/// Ranges of an order that is split by passes.
-typedef struct split {
-    const alpi_lattice *lattice;
-    const uint32_t *order;
-    uint32_t count;
-    uint32_t *by_pass;
-    uint32_t (*at)[ALPI_LATTICE_PASSES]; // [ranges] texels of each pass; then where they go
-} split;
-
-static uint32_t range_end(const split *s, uint32_t range)
-{
-    const uint32_t left = s->count - range * TEXELS_PER_RANGE;
-    return range * TEXELS_PER_RANGE + (left < TEXELS_PER_RANGE ? left : TEXELS_PER_RANGE);
-}
-
-static uint32_t pass_at(const split *s, uint32_t i)
-{
-    return alpi_lattice_pass(s->lattice->texels->pixels[s->order[i]]);
-}
-
-static alp_result count_passes(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const split *s = user;
-    for (uint32_t r = begin; r < end; r++) {
-        const uint32_t last = range_end(s, r);
-        for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
-            s->at[r][pass_at(s, i)]++;
-        }
-    }
-    return ALP_OK;
-}
-
-static alp_result split_ranges(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const split *s = user;
-    for (uint32_t r = begin; r < end; r++) {
-        const uint32_t last = range_end(s, r);
-        for (uint32_t i = r * TEXELS_PER_RANGE; i < last; i++) {
-            s->by_pass[s->at[r][pass_at(s, i)]++] = s->order[i];
-        }
-    }
-    return ALP_OK;
-}
-
-alp_result alpi_lattice_split(const alpi_lattice *lattice, const uint32_t *order, uint32_t count,
-                              uint32_t *by_pass, uint32_t first[ALPI_LATTICE_PASSES + 1])
-{
-    split s = {.lattice = lattice, .order = order, .count = count, .by_pass = by_pass};
-    const uint32_t ranges = count / TEXELS_PER_RANGE + (count % TEXELS_PER_RANGE > 0 ? 1 : 0);
-    ALPI_TRY_NEW(lattice->context, s.at, ranges);
-    alp_result result = alpi_parallel_for(lattice->context, ranges, 1, count_passes, &s, NULL);
-    uint32_t sum = 0;
-    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASSES; pass++) {
-        first[pass] = sum;
-        for (uint32_t r = 0; r < ranges; r++) {
-            const uint32_t begin = sum;
-            sum += s.at[r][pass];
-            s.at[r][pass] = begin;
-        }
-    }
-    first[ALPI_LATTICE_PASSES] = sum;
-    if (result == ALP_OK) {
-        result = alpi_parallel_for(lattice->context, ranges, 1, split_ranges, &s, NULL);
-    }
-    alpi_release(lattice->context, s.at);
-    return result;
 }

@@ -5,6 +5,8 @@
 
 #include <math.h>
 
+enum { TEXELS_PER_RANGE = 1 << 12 };
+
 // Across a larger angle, light changes at once: cos 16°. Texels that share their noise must be more
 // alike: cos 8°.
 static const float SMOOTH_COSINE = 0.96f, ALIKE_COSINE = 0.99f;
@@ -99,8 +101,8 @@ static float find_spread(const alpi_lattice *l, const alpi_stencil *s)
 static bool in_the_middle(const alpi_lattice *l, const centre *t, int h, alpi_stencil *s)
 {
     const bool along_x = add_axis(l, t, h, 0, 0.5f, s);
-    const bool along_y = (along_x || l->along_borders) && add_axis(l, t, 0, h, 0.5f, s);
-    if (l->along_borders && along_x != along_y) {
+    const bool along_y = (along_x || l->straight) && add_axis(l, t, 0, h, 0.5f, s);
+    if (l->straight && along_x != along_y) {
         for (uint32_t i = 0; i < s->count; i++) {
             s->weights[i] *= 2.0f;
         }
@@ -109,29 +111,29 @@ static bool in_the_middle(const alpi_lattice *l, const centre *t, int h, alpi_st
     return along_x && along_y;
 }
 
-/// How the texels of a pass lie to the texels of their stencils.
-typedef enum pass_kind { PASS_LATTICE, PASS_HALFWAY, PASS_MIDDLE } pass_kind;
+/// How the texels of a level lie to the texels of their stencils.
+typedef enum level_kind { LEVEL_LATTICE, LEVEL_HALFWAY, LEVEL_MIDDLE } level_kind;
 
-static const pass_kind PASS_KINDS[ALPI_LATTICE_PASSES] = {PASS_LATTICE, PASS_HALFWAY, PASS_MIDDLE,
-                                                          PASS_HALFWAY, PASS_HALFWAY, PASS_MIDDLE};
+static const level_kind LEVEL_KINDS[ALPI_LATTICE_LEVELS] = {
+    LEVEL_LATTICE, LEVEL_HALFWAY, LEVEL_MIDDLE, LEVEL_HALFWAY, LEVEL_HALFWAY, LEVEL_MIDDLE};
 
 bool alpi_lattice_stencil(const alpi_lattice *lattice, uint32_t texel, alpi_stencil *stencil)
 {
     const uint16_t *p = lattice->texels->pixels[texel];
-    const uint32_t pass = alpi_lattice_pass(p);
-    const pass_kind kind = PASS_KINDS[pass];
-    const int h = (int)alpi_lattice_reach(pass);
+    const uint32_t level = alpi_lattice_level(p);
+    const level_kind kind = LEVEL_KINDS[level];
+    const int h = (int)alpi_lattice_reach(level);
     stencil->count = 0;
     stencil->bend = 0.0f;
     bool whole = false;
     const centre c = find_centre(lattice, texel);
-    if (kind == PASS_HALFWAY) {
+    if (kind == LEVEL_HALFWAY) {
         const bool across = (uint32_t)p[0] % (2 * (uint32_t)h) != 0;
         whole = add_axis(lattice, &c, across ? h : 0, across ? 0 : h, 1.0f, stencil);
-        if (!whole && pass == ALPI_LATTICE_PASSES - 2 && lattice->along_borders) {
+        if (!whole && level == ALPI_LATTICE_LEVELS - 2 && lattice->straight) {
             whole = add_axis(lattice, &c, across ? 0 : 2 * h, across ? 2 * h : 0, 1.0f, stencil);
         }
-    } else if (kind == PASS_MIDDLE) {
+    } else if (kind == LEVEL_MIDDLE) {
         whole = in_the_middle(lattice, &c, h, stencil);
     }
     stencil->spread = whole ? find_spread(lattice, stencil) : 0.0f;
@@ -145,6 +147,43 @@ float alpi_lattice_interpolate(const alpi_lattice *lattice, const alpi_stencil *
         value += stencil->weights[i] * lattice->values[stencil->texels[i]];
     }
     return value;
+}
+
+typedef struct stencil_job {
+    const alpi_lattice *lattice;
+    const uint32_t *order;
+    uint32_t level;
+    alpi_stencil_fn *body;
+    void *user;
+} stencil_job;
+
+static alp_result run_stencils(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    (void)worker;
+    const stencil_job *job = user;
+    const alpi_lattice *l = job->lattice;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t t = job->order[i];
+        alpi_stencil stencil;
+        if (l->states[t] == ALPI_TEXEL_INTERPOLATED &&
+            alpi_lattice_level(l->texels->pixels[t]) == job->level &&
+            alpi_lattice_stencil(l, t, &stencil)) {
+            job->body(job->user, t, &stencil);
+        }
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_lattice_for_stencils(const alpi_lattice *lattice, const uint32_t *order,
+                                     uint32_t count, alpi_stencil_fn *body, void *user,
+                                     const alpi_task_progress *progress)
+{
+    stencil_job job = {.lattice = lattice, .order = order, .body = body, .user = user};
+    for (job.level = 1; job.level < ALPI_LATTICE_LEVELS; job.level++) {
+        ALP_TRY(alpi_parallel_for(lattice->context, count, TEXELS_PER_RANGE, run_stencils, &job,
+                                  progress));
+    }
+    return ALP_OK;
 }
 
 uint32_t alpi_lattice_traced_around(const alpi_lattice *lattice, uint32_t texel,
@@ -210,9 +249,9 @@ float alpi_lattice_kink(const alpi_lattice *lattice, uint32_t texel)
 
 // --- the judge -----------------------------------------------------------------------------------
 
-static float noise_about(const alpi_lattice_judge *j, float level)
+static float noise_about(const alpi_lattice_judge *j, float value)
 {
-    return j->noise != NULL ? j->noise(j->user, level) : 1.0f;
+    return j->noise != NULL ? j->noise(j->user, value) : 1.0f;
 }
 
 /// Whether a texel may take the value of its stencil.
@@ -234,15 +273,15 @@ void alpi_lattice_judge_range(const alpi_lattice_judge *judge, uint32_t begin, u
             continue;
         }
         if (judge->flood) {
-            judge->wanted[t] =
+            judge->marked[t] =
                 alpi_lattice_kink(l, t) > judge->kink * noise_about(judge, l->values[t]);
-        } else if (alpi_lattice_pass(l->texels->pixels[t]) != judge->pass || judge->wanted[t]) {
+        } else if (alpi_lattice_level(l->texels->pixels[t]) != judge->level || judge->marked[t]) {
             continue;
         } else if (alpi_lattice_stencil(l, t, &stencil) && is_smooth(judge, t, &stencil)) {
             l->states[t] = ALPI_TEXEL_INTERPOLATED;
             l->values[t] = alpi_lattice_interpolate(l, &stencil);
         } else {
-            judge->wanted[t] = 1;
+            judge->marked[t] = 1;
         }
     }
 }

@@ -9,20 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    TEXELS_PER_RANGE = 512,
-    TEXELS_PER_TICK = 1 << 16,
-    STRATA = 16,
-    NEAR_SAMPLES = 16,
-    TOGETHER = 16,
-    OCTAVE_LIMIT = 64
-};
-
-// Surfaces closer than this, in texels, cast shadows that a lattice of 4 may miss.
-static const double NEAR_DISTANCE = 2.5;
-// Share of a scout's rays that end there where the surface is within a texel.
-static const float TOUCHING = 0.22f;
-static const uint64_t NEAR_SEED = 0x6e656172;
+enum { TEXELS_PER_RANGE = 512, TEXELS_PER_TICK = 1 << 16, STRATA = 16, TOGETHER = 16 };
 
 typedef struct validity_job {
     const alpi_occlusion_setup *setup;
@@ -32,26 +19,10 @@ typedef struct validity_job {
     const uint32_t *order;
     uint32_t order_count;
     alpi_validity *out;
-    uint8_t *scouts;  // [texels] 0: not one, else 1 + alpi_proximity; the scratch's marks
     uint16_t *inside; // [texels] bit i: stratum i is inside other geometry; the scratch's
 } validity_job;
 
-// --- what is near --------------------------------------------------------------------------------
-
-/// Texels that are asked for all around them: every second of every second row.
-static bool is_scout(const alpi_texels *t, uint32_t texel)
-{
-    return t->pixels[texel][0] % 2 == 0 && t->pixels[texel][1] % 2 == 0;
-}
-
-/// The octave of a texel's side: scouts of one octave look equally far.
-static int find_octave(const alpi_texels *t, uint32_t texel)
-{
-    const int octave = ilogbf(alpi_texels_side(t, texel));
-    return octave < -OCTAVE_LIMIT ? -OCTAVE_LIMIT : octave > OCTAVE_LIMIT ? OCTAVE_LIMIT : octave;
-}
-
-/// Asks the user whether to go on, once in a while; for loops over the order on one thread.
+/// Reports from a serial loop over the order, once in a while. @return ALP_OK; CANCELLED
 static alp_result tick(const validity_job *job, uint32_t i)
 {
     return i % TEXELS_PER_TICK == TEXELS_PER_TICK - 1
@@ -59,108 +30,7 @@ static alp_result tick(const validity_job *job, uint32_t i)
                : ALP_OK;
 }
 
-/// Scouts of one octave.
-static alp_result list_scouts(const validity_job *job, int octave, uint32_t *list, uint32_t *count)
-{
-    *count = 0;
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (is_scout(job->texels, t) && find_octave(job->texels, t) == octave) {
-            list[(*count)++] = t;
-        }
-        ALP_TRY(tick(job, i));
-    }
-    return ALP_OK;
-}
-
-/// Occlusion over a short distance, in mean sides of the listed texels. Nothing of it is the
-/// bake's: which texels are looked at, and so what a map converges to, must not hang on the seed,
-/// nor on what is asked of another map (its cone, how many rays, whether these are quick).
-static alp_result make_short_setup(const validity_job *job, const uint32_t *list, uint32_t count,
-                                   alpi_occlusion_setup *setup)
-{
-    alp_occlusion_options near = alp_occlusion_options_default();
-    double area = 0.0, coverage = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        area += (double)job->texels->areas[list[i]];
-        coverage += (double)job->texels->coverages[list[i]];
-    }
-    near.distance = (float)(NEAR_DISTANCE * sqrt(area / fmax(coverage, 1e-30)));
-    near.falloff = ALP_FALLOFF_NONE;
-    near.samples = NEAR_SAMPLES;
-    near.seed = NEAR_SEED;
-    return alpi_occlusion_prepare(job->setup->scene, job->setup->tracer, &near, setup);
-}
-
-/// A texel is near something when one of the scouts around it in its chart is, or there is none.
-static alp_result spread_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
-{
-    (void)worker;
-    const validity_job *job = user;
-    const alpi_texels *t = job->texels;
-    for (uint32_t i = begin; i < end; i++) {
-        const uint32_t texel = job->order[i];
-        const uint32_t p[2] = {t->pixels[texel][0], t->pixels[texel][1]};
-        uint8_t nearest = 0;
-        for (uint32_t y = p[1] & ~1u; y <= p[1] + 1u; y += 2) {
-            for (uint32_t x = p[0] & ~1u; x <= p[0] + 1u; x += 2) {
-                const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel], x, y);
-                if (n != ALPI_NONE && t->charts[n] == t->charts[texel] &&
-                    job->scouts[n] > nearest) {
-                    nearest = job->scouts[n];
-                }
-            }
-        }
-        job->out->proximity[texel] = nearest > 0 ? nearest - 1 : ALPI_TOUCHING;
-    }
-    return ALP_OK;
-}
-
-/// A few short rays from each of the listed texels, by the occlusion kernel.
-static alp_result send_scouts(validity_job *job, const uint32_t *list, uint32_t count,
-                              const alpi_task_progress *progress, alpi_occlusion_sums *sums)
-{
-    alpi_occlusion_setup near;
-    ALP_TRY(make_short_setup(job, list, count, &near));
-    alp_result result = alpi_occlusion_add(&near, job->receivers, list, count, 0, NEAR_SAMPLES,
-                                           NEAR_SAMPLES, progress, sums);
-    for (uint32_t i = 0; i < count; i++) {
-        const float closed = 1.0f - alpi_occlusion_value(sums, list[i]);
-        job->scouts[list[i]] = closed > TOUCHING ? 3 : closed > 0.0f ? 2 : 1;
-    }
-    job->out->rays += (uint64_t)count * NEAR_SAMPLES;
-    alpi_occlusion_release(&near);
-    return result;
-}
-
-/// Sends a quarter of the texels as scouts, then tells all.
-static alp_result find_near(validity_job *job, const alpi_task_progress *progress)
-{
-    alp_context *context = job->setup->context;
-    alpi_occlusion_sums *sums = &job->out->scratch->sums;
-    bool octaves[2 * OCTAVE_LIMIT + 1] = {false};
-    for (uint32_t i = 0; i < job->order_count; i++) {
-        const uint32_t t = job->order[i];
-        if (is_scout(job->texels, t)) {
-            octaves[OCTAVE_LIMIT + find_octave(job->texels, t)] = true;
-        }
-        ALP_TRY(tick(job, i));
-    }
-    uint32_t *list = ALPI_NEW(context, uint32_t, job->order_count);
-    alp_result result = list != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
-    for (int k = -OCTAVE_LIMIT; k <= OCTAVE_LIMIT && result == ALP_OK; k++) {
-        uint32_t count = 0;
-        result = octaves[OCTAVE_LIMIT + k] ? list_scouts(job, k, list, &count) : ALP_OK;
-        result =
-            result == ALP_OK && count > 0 ? send_scouts(job, list, count, progress, sums) : result;
-    }
-    alpi_release(context, list);
-    ALP_TRY(result);
-    return alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, spread_range, job,
-                             progress);
-}
-
-// --- texels --------------------------------------------------------------------------------------
+// --- lifts ---------------------------------------------------------------------------------------
 
 /// Middles of `count` strata.
 static void find_middles(const uint8_t *strata, uint32_t count, float (*square)[2])
@@ -172,16 +42,7 @@ static void find_middles(const uint8_t *strata, uint32_t count, float (*square)[
     }
 }
 
-/// Points at the middles of `count` strata.
-static void place_strata(const validity_job *job, uint32_t texel, const uint8_t *strata,
-                         uint32_t count, alpi_receiver_point *points)
-{
-    float square[STRATA][2];
-    find_middles(strata, count, square);
-    job->receivers->place(job->receivers->user, texel, count, (const float(*)[2])square, points);
-}
-
-/// Aims a lane of a packet that was cleared; one of no length stays of no length.
+/// Aims a lane from one point to another. A lane without length stays clear.
 static void aim_between(vec3 from, vec3 to, int lane, alpi_rays *rays)
 {
     const vec3 way = vec3_sub(to, from);
@@ -191,34 +52,33 @@ static void aim_between(vec3 from, vec3 to, int lane, alpi_rays *rays)
     }
 }
 
-static uint32_t stopped_lanes(const alpi_rays *rays)
+static uint32_t occluded_lanes(const alpi_rays *rays)
 {
-    uint32_t stopped = 0;
+    uint32_t occluded = 0;
     for (int i = 0; i < ALPI_PACKET; i++) {
-        stopped |= (rays->maximum[i] < 0.0f ? 1u : 0u) << i;
+        occluded |= (rays->maximum[i] < 0.0f ? 1u : 0u) << i;
     }
-    return stopped;
+    return occluded;
 }
 
-/// @param packets 4 at most   @return bits of the rays that are stopped, a packet after another
-static uint32_t find_stopped(const validity_job *job, alpi_rays *rays, uint32_t packets)
+/// @param packets 4 at most   @return bits of the rays that hit, one packet after the other
+static uint32_t find_occluded(const validity_job *job, alpi_rays *rays, uint32_t packets)
 {
-    uint32_t stopped = 0;
+    uint32_t occluded = 0;
     alpi_trace_occluded(job->setup->tracer, rays, packets, 0xffu, (alpi_trace_filter){0},
                         ALPI_RAYS_PAIRED);
     for (uint32_t p = 0; p < packets; p++) {
-        stopped |= stopped_lanes(&rays[p]) << ALPI_PACKET * p;
+        occluded |= occluded_lanes(&rays[p]) << ALPI_PACKET * p;
     }
-    return stopped;
+    return occluded;
 }
 
-/// Whether something that no lift comes with lies above one of some points: a ledge, whose shadow
-/// a lifted point would leave. Smooth neighbours, at most 60° apart, count as the lifted surface.
-/// @param reach metres
+/// Whether a ledge lies above one of eight points: a lifted point would leave its shadow. Smooth
+/// neighbours, at most 60° apart, belong to the lifted surface. @param reach metres
 static bool finds_ledge(const validity_job *job, const alpi_receiver_point *points,
                         const vec3 low[ALPI_PACKET], float reach)
 {
-    static const float RISE = 0.25f; // of the rays above the triangle, over their way along it
+    static const float RISE = 0.25f; // slope of the rays against the triangle
     const alp_scene *scene = job->texels->atlas->scene;
     alpi_rays rays;
     alpi_hits hits;
@@ -243,8 +103,8 @@ static bool finds_ledge(const validity_job *job, const alpi_receiver_point *poin
     return found;
 }
 
-/// Leaves the points of a texel on their triangles where the lift of any of eight passes through
-/// something, or leaves the shadow of a ledge.
+/// Leaves the points of a texel on their triangles if the lift of any of eight passes through a
+/// surface, or leaves the shadow of a ledge.
 static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
 {
     static const uint8_t chosen[ALPI_PACKET] = {0, 2, 5, 7, 8, 10, 13, 15}; // every other cell
@@ -264,91 +124,90 @@ static void keep_low_if_blocked(const validity_job *job, uint32_t texel)
         const vec3 to = vec3_add(from, vec3_sub(point->position, low[i]));
         const float lift = vec3_length(vec3_sub(to, from));
         most = fmaxf(most, lift);
-        if (lift > point->offset) { // else it meets its own surface
+        if (lift > point->offset) { // else it hits its own surface
             aim_between(from, to, i, &rays);
             any = true;
         }
     }
     if (any &&
-        (find_stopped(job, &rays, 1) != 0 || finds_ledge(job, lifted, low, LEDGE_REACH * most))) {
+        (find_occluded(job, &rays, 1) != 0 || finds_ledge(job, lifted, low, LEDGE_REACH * most))) {
         job->texels->flags[texel] |= ALPI_TEXEL_NO_LIFT;
     }
 }
 
-/// Which strata of a texel lie inside other geometry: those that are seen from its middle, where
-/// that is outside, are outside; the others are asked.
+// --- texels inside solids ------------------------------------------------------------------------
+
+/// Which strata of a texel lie inside other geometry. Strata that the middle sees are outside if it
+/// is; the others are tested.
 static uint16_t find_inside(const validity_job *job, uint32_t texel,
                             const alpi_receiver_point *middle, bool middle_inside)
 {
-    const uint8_t all[STRATA] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    static const uint8_t all[STRATA] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     alpi_receiver_point points[STRATA];
-    float sides[STRATA];
-    place_strata(job, texel, all, STRATA, points);
+    alpi_rays rays[STRATA / ALPI_PACKET];
+    float sides[STRATA], square[STRATA][2];
     const float side = alpi_texels_side(job->texels, texel);
+    const vec3 above = alpi_ring_origin(middle, side);
+    find_middles(all, STRATA, square);
+    job->receivers->place(job->receivers->user, texel, STRATA, (const float(*)[2])square, points);
     for (int i = 0; i < STRATA; i++) {
+        alpi_rays *packet = &rays[i / ALPI_PACKET];
         sides[i] = side;
-    }
-    uint32_t asked = (1u << STRATA) - 1u;
-    if (!middle_inside) {
-        alpi_rays rays[STRATA / ALPI_PACKET];
-        const vec3 above = alpi_look_start(middle, side);
-        for (int i = 0; i < STRATA; i++) {
-            alpi_rays *packet = &rays[i / ALPI_PACKET];
-            if (i % ALPI_PACKET == 0) {
-                alpi_rays_clear(packet);
-            }
-            aim_between(above, alpi_look_start(&points[i], side), i % ALPI_PACKET, packet);
+        if (i % ALPI_PACKET == 0) {
+            alpi_rays_clear(packet);
         }
-        asked = find_stopped(job, rays, STRATA / ALPI_PACKET);
+        aim_between(above, alpi_ring_origin(&points[i], side), i % ALPI_PACKET, packet);
     }
+    const uint32_t tested =
+        middle_inside ? (1u << STRATA) - 1u : find_occluded(job, rays, STRATA / ALPI_PACKET);
     return (uint16_t)alpi_are_inside(job->setup->tracer, job->texels->atlas->scene, points, sides,
-                                     asked);
+                                     tested);
 }
 
-/// Neighbours that are judged together, as their rays go together.
-typedef struct judged {
+/// Neighbours whose rays are traced together.
+typedef struct group {
     uint32_t count;
     uint32_t texels[TOGETHER];
     alpi_receiver_point middles[TOGETHER];
     float sides[TOGETHER];
-} judged;
+} group;
 
-/// Bits of those that have anything within 1.6 texels of their middle (a filter reads them up to
-/// one away, and eight directions may miss the nearest by 22°): others are wholly outside, or so
-/// far inside that no filter reads them with one that is seen.
-static uint32_t find_suspicious(const validity_job *job, const judged *all)
+/// Bits of the texels with a surface within 1.6 texels of their middle, in eight directions. Others
+/// are completely outside, or so far inside that no filter mixes them with a seen texel: it reads
+/// one texel away, and the directions miss the nearest point by up to 22°.
+static uint32_t find_crossed(const validity_job *job, const group *all)
 {
     alpi_rays rays[TOGETHER];
-    uint32_t suspicious = 0;
+    uint32_t crossed = 0;
     for (uint32_t k = 0; k < all->count; k++) {
         const float reach = 1.6f * all->sides[k];
         alpi_rays_clear(&rays[k]);
-        alpi_look_aim(&all->middles[k], reach, ALPI_LOOK_ALONG, reach, 0, &rays[k]);
-        alpi_look_aim(&all->middles[k], reach, ALPI_LOOK_BETWEEN, reach, 4, &rays[k]);
+        alpi_ring_aim(&all->middles[k], reach, ALPI_RING_AXES, reach, 0, &rays[k]);
+        alpi_ring_aim(&all->middles[k], reach, ALPI_RING_DIAGONALS, reach, 4, &rays[k]);
     }
     alpi_trace_occluded(job->setup->tracer, rays, all->count, 0xffu, (alpi_trace_filter){0},
                         ALPI_RAYS_PAIRED);
     for (uint32_t k = 0; k < all->count; k++) {
-        suspicious |= (stopped_lanes(&rays[k]) != 0 ? 1u : 0u) << k;
+        crossed |= (occluded_lanes(&rays[k]) != 0 ? 1u : 0u) << k;
     }
-    return suspicious;
+    return crossed;
 }
 
-/// One that touches something and has nothing beside it may be far inside: what it touches is then
-/// the solid around it.
-static void judge(const validity_job *job, const judged *all)
+/// Finds the strata inside solids of crossed texels. A texel that touches a surface, with nothing
+/// beside it, may be far inside: it touches the solid around it.
+static void find_group(const validity_job *job, const group *all)
 {
-    const uint32_t suspicious = find_suspicious(job, all);
-    uint32_t asked = suspicious;
+    const uint32_t crossed = find_crossed(job, all);
+    uint32_t tested = crossed;
     for (uint32_t k = 0; k < all->count; k++) {
-        asked |= (job->out->proximity[all->texels[k]] == ALPI_TOUCHING ? 1u : 0u) << k;
+        tested |= (job->out->proximity[all->texels[k]] == ALPI_TOUCHING ? 1u : 0u) << k;
     }
     const uint32_t inside = alpi_are_inside(job->setup->tracer, job->texels->atlas->scene,
-                                            all->middles, all->sides, asked);
+                                            all->middles, all->sides, tested);
     for (uint32_t k = 0; k < all->count; k++) {
         const uint32_t texel = all->texels[k];
         const bool middle_inside = (inside >> k & 1u) != 0;
-        if ((suspicious >> k & 1u) != 0) {
+        if ((crossed >> k & 1u) != 0) {
             job->inside[texel] = find_inside(job, texel, &all->middles[k], middle_inside);
         } else if (middle_inside) {
             job->texels->flags[texel] |= ALPI_TEXEL_HIDDEN;
@@ -367,7 +226,7 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
         const uint32_t t = job->order[i];
         texels->flags[t] = 0;
         if (texels->valid != NULL) {
-            texels->valid[t] = 0; // of an earlier look, through which places would go
+            texels->valid[t] = 0; // of an earlier call; points would be placed by it
         }
         const bool whole = texels->piece_first[t] == texels->piece_first[t + 1];
         if (!whole || texels->triangles[t] != last) {
@@ -381,11 +240,11 @@ static alp_result lower_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+static alp_result find_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
 {
     (void)worker;
     const validity_job *job = user;
-    judged all = {.count = 0};
+    group all = {.count = 0};
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t t = job->order[i];
         if (job->out->proximity[t] != ALPI_FAR) {
@@ -394,31 +253,30 @@ static alp_result judge_range(void *user, uint32_t begin, uint32_t end, uint32_t
             all.texels[all.count++] = t;
         }
         if (all.count == TOGETHER || (i + 1 == end && all.count > 0)) {
-            judge(job, &all);
+            find_group(job, &all);
             all.count = 0;
         }
     }
     return ALP_OK;
 }
 
-/// Whether a texel that is not wholly inside is beside it in its chart.
+/// Whether a texel of its chart that is not completely inside is beside it.
 static bool is_beside_seen(const validity_job *job, uint32_t texel)
 {
     const alpi_texels *t = job->texels;
-    const uint16_t *p = t->pixels[texel];
-    for (int k = 0; k < 9; k++) {
-        const uint32_t n = alpi_lattice_texel(job->lattice, t->pages[texel],
-                                              (int64_t)p[0] + k % 3 - 1, (int64_t)p[1] + k / 3 - 1);
-        if (n != ALPI_NONE && t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX) {
-            return true;
-        }
+    uint32_t around[ALPI_AROUND_LIMIT];
+    const uint32_t count = alpi_lattice_around(job->lattice, texel, around);
+    bool found = false;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t n = around[i];
+        found = found || (t->charts[n] == t->charts[texel] && job->inside[n] != UINT16_MAX);
     }
-    return false;
+    return found;
 }
 
-/// Texels partly inside keep their other strata; those wholly inside at the rim are dropped; those
-/// farther in, which nobody sees, are called hidden.
-static alp_result settle(validity_job *job)
+/// Texels partly inside keep their other strata. Those completely inside are dropped at the rim,
+/// and hidden farther in.
+static alp_result store(validity_job *job)
 {
     alpi_texels *texels = job->texels;
     for (uint32_t i = 0; i < job->order_count; i++) {
@@ -441,17 +299,31 @@ static alp_result settle(validity_job *job)
     return ALP_OK;
 }
 
+// --- all texels ----------------------------------------------------------------------------------
+
+static alp_result find_proximity(validity_job *job, const alpi_task_progress *progress)
+{
+    alpi_proximity_job near = {.setup = job->setup,
+                               .receivers = job->receivers,
+                               .lattice = job->lattice,
+                               .order = job->order,
+                               .count = job->order_count,
+                               .scratch = job->out->scratch,
+                               .proximity = job->out->proximity};
+    const alp_result result = alpi_find_proximity(&near, progress);
+    job->out->rays += near.rays;
+    return result;
+}
+
 static alp_result run(validity_job *job, const alpi_task_progress *progress)
 {
     alp_context *context = job->setup->context;
-    alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
-    ALP_TRY(
-        alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &told));
-    ALP_TRY(find_near(job, &told));
-    ALP_TRY(
-        alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, judge_range, job, &told));
-    ALP_TRY(settle(job));
-    return alpi_scratch_clear(job->out->scratch, job->order, job->order_count, &told);
+    alpi_task_progress p = progress != NULL ? *progress : (alpi_task_progress){0};
+    ALP_TRY(alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, lower_range, job, &p));
+    ALP_TRY(find_proximity(job, &p));
+    ALP_TRY(alpi_parallel_for(context, job->order_count, TEXELS_PER_RANGE, find_range, job, &p));
+    ALP_TRY(store(job));
+    return alpi_scratch_clear(job->out->scratch, job->order, job->order_count, &p);
 }
 
 alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratch *scratch,
@@ -467,7 +339,7 @@ alp_result alpi_validity_open(alp_context *context, uint32_t texels, alpi_scratc
     return ALP_OK;
 }
 
-alp_result alpi_validity_look(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
+alp_result alpi_validity_find(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
                               alpi_texels *texels, const alpi_lattice *lattice,
                               const uint32_t *order, uint32_t order_count,
                               const alpi_task_progress *progress, alpi_validity *validity)
@@ -480,7 +352,6 @@ alp_result alpi_validity_look(const alpi_occlusion_setup *setup, const alpi_rece
                         .lattice = lattice,
                         .order = order,
                         .order_count = order_count,
-                        .scouts = validity->scratch->marks,
                         .inside = validity->scratch->inside,
                         .out = validity};
     return run(&job, progress);
@@ -496,7 +367,7 @@ alp_result alpi_validity_create(const alpi_occlusion_setup *setup, const alpi_re
     ALP_TRY(alpi_scratch_create(setup->context, texels->count, false, &scratch));
     alp_result result = alpi_validity_open(setup->context, texels->count, &scratch, validity);
     if (result == ALP_OK) {
-        result = alpi_validity_look(setup, receivers, texels, lattice, order, order_count, progress,
+        result = alpi_validity_find(setup, receivers, texels, lattice, order, order_count, progress,
                                     validity);
     }
     alpi_scratch_destroy(&scratch);

@@ -3,8 +3,8 @@
 #include "scene/lights/lighting_emitters.h"
 
 #include "base/memory.h"
+#include "scene/lights/black_emission.h"
 #include "scene/lights/lighting.h"
-#include "scene/lights/lighting_dark.h"
 
 #include <math.h>
 

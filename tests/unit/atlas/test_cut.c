@@ -118,7 +118,7 @@ TEST_WITH_CONTEXT(halves_of_squares_fill_pages, 1)
 }
 
 /// Gaps for blocks and mip levels are kept between parts, and these fill pages as well.
-TEST_WITH_CONTEXT(parts_keep_gaps, 1)
+TEST_SLOW_WITH_CONTEXT(parts_keep_gaps, 1)
 {
     static const wish wishes[] = {{64, 0, 0, 0, 150.0},
                                   {64, 2, 4, 0, 150.0},

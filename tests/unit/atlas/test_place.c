@@ -475,7 +475,7 @@ static void check_same(const alpi_texels *a, const alpi_texels *b, uint32_t page
     assert_memory_equal(a->piece_ends, b->piece_ends, pieces * sizeof *a->piece_ends);
 }
 
-TEST(any_number_of_workers_gives_the_same)
+TEST_SLOW(any_number_of_workers_gives_the_same)
 {
     const uint32_t workers[] = {1, 2, 7, 32};
     alp_context *contexts[4];

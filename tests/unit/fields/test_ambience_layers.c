@@ -126,7 +126,7 @@ static void check_sums(bool direct)
     alp_scene_destroy(scene);
 }
 
-TEST(all_light_is_the_rest_and_the_layers)
+TEST_SLOW(all_light_is_the_rest_and_the_layers)
 {
     check_sums(false);
 }

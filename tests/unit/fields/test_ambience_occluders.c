@@ -63,7 +63,7 @@ static double read_up(const air *v, double x, double y, double z)
 }
 
 /// E = π (1 − r²/d²) = 2.356 under a ball, of which nine coefficients make 2.326.
-TEST(a_ball_darkens_what_lies_below_and_goes)
+TEST_SLOW(a_ball_darkens_what_lies_below_and_goes)
 {
     static const double spheres[1][4] = {{0.0, 3.0, 0.0, 1.5}};
     air v = open_air();

@@ -181,7 +181,7 @@ static alp_ambience_sampler_options sunny(float azimuth)
 
 /// After the sun turned, kept hits are relit, not traced, and give the light of a volume that was
 /// sampled under the new sun.
-TEST(kept_hits_are_relit_when_the_sun_moves)
+TEST_SLOW(kept_hits_are_relit_when_the_sun_moves)
 {
     alp_ambience_options o = room_options(27.0, 2);
     o.anchor_limit = 600;

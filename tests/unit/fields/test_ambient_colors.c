@@ -107,7 +107,7 @@ TEST_WITH_CONTEXT(colours_of_ambient_models_give_their_light, 2)
     alp_scene_destroy(scene);
 }
 
-TEST_WITH_CONTEXT(other_fields_have_no_ambient_colours, 1)
+TEST_SLOW_WITH_CONTEXT(other_fields_have_no_ambient_colours, 1)
 {
     alp_scene *scene = test_load(context, "builtin:cornell");
     alp_probe_options o = alp_probe_options_default();

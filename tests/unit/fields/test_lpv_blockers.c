@@ -436,7 +436,7 @@ static double mean_of_walls(const alp_lpv *lpv)
 
 /// Mean E of walls of one albedo is Φ/((1 − albedo) A). E over that is the volume's bias; how it
 /// changes with the albedo tests the series. Light that leaves by edges of the box lowers it.
-TEST(a_box_obeys_the_geometric_series)
+TEST_SLOW(a_box_obeys_the_geometric_series)
 {
     static const float albedo[4] = {0.0f, 0.25f, 0.5f, 0.75f};
     static const double series[2][4] = {{1.0, .99, .99, .99}, {1.0, .96, .91, .78}};

@@ -400,7 +400,7 @@ TEST(light_is_steady_while_the_camera_moves)
 
 TEST_SLOW(light_is_steady_on_a_long_walk)
 {
-    walk(16, 0.5, true, 600);
+    walk(16, 0.5, true, 300);
     expect_steady(&steps, "floor", 0.8, 1.2);
 }
 

@@ -124,7 +124,7 @@ TEST(steps_agree_with_the_twin)
 }
 
 /// A step keeps all light: in float within 1e-7 a step, in the twin's double within 1e-12.
-TEST(steps_keep_energy)
+TEST_SLOW(steps_keep_energy)
 {
     const uint32_t size[3] = {16, 16, 16};
     for (int mode = 0; mode < ALP_LPV_MODE_COUNT; mode++) {
@@ -391,7 +391,7 @@ static double box_centre(uint32_t side, alp_lpv_mode mode, uint32_t iterations)
     return i0 / ALP_LPV_GAIN;
 }
 
-TEST(a_closed_box_is_as_bright_as_is_known)
+TEST_SLOW(a_closed_box_is_as_bright_as_is_known)
 {
     ASSERT_NEAR(box_centre(8, ALP_LPV_CONFORMANCE, 64), 1.44, 5e-3);
     ASSERT_NEAR(box_centre(8, ALP_LPV_ACCURATE, 64), .90, 5e-3);

@@ -226,9 +226,8 @@ static alp_result copy_element(expansion *x, copying *from)
     const bool shown = x->placement < p->origin->placement_count &&
                        p->origin->placements[x->placement].instance == element;
     if (alpi_xml_is(element, "instance_node")) {
-        xmlNode *target = NULL;
-        ALP_TRY(alpi_collada_resolve(d, element, "url", "node", &target));
-        if (target != NULL) {
+        xmlNode *target = alpi_collada_target(d, element, "url");
+        if (alpi_xml_is(target, "node")) {
             copy_until(x, from, span->begin);
             skip_element(x, from, element);
             return push_copy(x, target);

@@ -101,6 +101,8 @@ void alpi_patcher_destroy(alpi_gltf_patcher *p)
     alpi_release(p->context, p->plans);
     alpi_release(p->context, p->showings);
     alpi_release(p->context, p->pieces);
+    alpi_release(p->context, p->mapped);
+    alpi_release(p->context, p->copies);
     alpi_release(p->context, p->instance_counts);
     alpi_release(p->context, p->instance_firsts);
     alpi_release(p->context, p->instances);
@@ -146,6 +148,7 @@ alp_result alpi_patcher_run(alpi_gltf_patcher *patcher)
     ALP_TRY(alpi_patcher_plan(patcher));
     if (patcher->patch->vertex_values == NULL) {
         ALP_TRY(alpi_patcher_materials(patcher));
+        alpi_patcher_follow_pointers(patcher);
     } else {
         alpi_patcher_warn_of_former(patcher);
     }

@@ -39,7 +39,13 @@ enum { ALPI_GLTF_BLEND_SETS = 3, ALPI_GLTF_ATTRIBUTE_SIZE = 32 };
 typedef struct alpi_gltf_piece {
     uint32_t page;   // ALPI_NONE: its material's occlusion is packed into an image
     size_t material; // in the written file
+    size_t mapped;   // first of its materials of variants, in alpi_gltf_patcher.mapped
 } alpi_gltf_piece;
+
+/// A material of the document, and a copy of it in the written file.
+typedef struct alpi_gltf_material_copy {
+    size_t old, written;
+} alpi_gltf_material_copy;
 
 /// One surface that gets a map. Plans with the same `user` are neighbours: the primitives of one
 /// node, which further nodes may show too (with kept coordinates: of one mesh).
@@ -100,6 +106,10 @@ typedef struct alpi_gltf_patcher {
     size_t showing_count;
     alpi_gltf_piece *pieces;
     size_t piece_count, piece_capacity;
+    size_t *mapped; // of each mapping of variants of each piece; ALPI_GLTF_NONE: as it was
+    size_t mapped_count, mapped_capacity;
+    alpi_gltf_material_copy *copies;
+    size_t copy_count, copy_capacity;
     size_t *instance_counts, *instance_firsts; // [nodes of the document] count 0: a plain node
     alpi_gltf_shown *instances;
     size_t expanded_count; // nodes whose instances became nodes

@@ -6,7 +6,9 @@
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/gltf/write/gltf_appends.h"
+#include "formats/gltf/write/gltf_patch_plan.h"
 #include "formats/gltf/write/gltf_patch_sets.h"
+#include "formats/gltf/write/gltf_patch_users.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,73 +29,6 @@ typedef struct needs {
     bool *has_other_users; // [materials of the document]
     bool *edited;          // [materials of the document] has become one of the needs
 } needs;
-
-// --- who else uses a material --------------------------------------------------------------------
-
-static void mark_user(const alpi_gltf_patcher *p, json_t *object, bool *marks)
-{
-    json_t *index = json_object_get(object, "material");
-    if (json_is_number(index)) {
-        double value = json_number_value(index);
-        if (value >= 0.0 && value < (double)p->lists[ALPI_GLTF_MATERIALS].count) {
-            marks[(size_t)value] = true;
-        }
-    }
-}
-
-/// Materials that a variant of a primitive can switch to stay as they are.
-static void mark_variants(const alpi_gltf_patcher *p, json_t *primitive, bool *marks)
-{
-    json_t *variants = alpi_gltf_extension(primitive, "KHR_materials_variants");
-    json_t *mappings = json_object_get(variants, "mappings");
-    for (size_t i = 0; i < json_array_size(mappings); i++) {
-        mark_user(p, json_array_get(mappings, i), marks);
-    }
-}
-
-/// Marks the materials of primitives that will still be there unpatched. `patched` tells for each
-/// primitive, counted through all meshes, whether it is edited in place.
-static void mark_other_users(const alpi_gltf_patcher *p, const bool *patched, bool *marks)
-{
-    size_t at = 0, count = p->lists[ALPI_GLTF_MESHES].count;
-    for (size_t m = 0; m < count; m++) {
-        json_t *primitives =
-            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives");
-        for (size_t i = 0; i < json_array_size(primitives); i++, at++) {
-            json_t *primitive = json_array_get(primitives, i);
-            if (!patched[at]) {
-                mark_user(p, primitive, marks);
-            }
-            mark_variants(p, primitive, marks);
-        }
-    }
-}
-
-static alp_result find_other_users(const alpi_gltf_patcher *p, bool *marks)
-{
-    size_t count = p->lists[ALPI_GLTF_MESHES].count, total = 0;
-    size_t *first = ALPI_NEW(p->context, size_t, count);
-    if (first == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    for (size_t m = 0; m < count; m++) {
-        first[m] = total;
-        total += json_array_size(
-            json_object_get(alpi_gltf_item(p->document, "meshes", m), "primitives"));
-    }
-    bool *patched = ALPI_NEW(p->context, bool, total);
-    for (size_t i = 0; patched != NULL && i < p->plan_count; i++) {
-        const alpi_gltf_plan *plan = &p->plans[i];
-        patched[first[plan->mesh] + plan->primitive] |= !plan->in_a_copy;
-    }
-    if (patched != NULL) {
-        mark_other_users(p, patched, marks);
-    }
-    alp_result result = patched == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-    alpi_release(p->context, patched);
-    alpi_release(p->context, first);
-    return result;
-}
 
 // --- images and textures -------------------------------------------------------------------------
 
@@ -214,6 +149,15 @@ static void print_new_material(alpi_gltf_patcher *p, const need *n, const char *
     alpi_bytes_destroy(&members);
 }
 
+static alp_result note_copy(alpi_gltf_patcher *p, size_t old, size_t written)
+{
+    void *items = p->copies;
+    ALP_TRY(alpi_grow(p->context, &items, &p->copy_capacity, p->copy_count + 1, sizeof *p->copies));
+    p->copies = items;
+    p->copies[p->copy_count++] = (alpi_gltf_material_copy){old, written};
+    return ALP_OK;
+}
+
 /// Puts the map into a material: the one of the document, a copy of it, or a new one.
 static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
 {
@@ -239,6 +183,7 @@ static alp_result write_material(alpi_gltf_patcher *p, needs *all, need *n)
             result = result == ALP_OK ? alpi_edits_apply(&copy, span, &text) : result;
             result = result == ALP_OK ? alpi_patcher_mark_copy(p, n->old, &text) : result;
             n->written = alpi_patcher_append(p, ALPI_GLTF_MATERIALS, text.bytes, text.size);
+            result = result == ALP_OK ? note_copy(p, n->old, n->written) : result;
             alpi_edits_destroy(&copy);
         }
         all->edited[n->old] = true;
@@ -283,35 +228,94 @@ static float light_scale(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
                             ->scales[material == ALPI_NONE ? p->scene->material_count : material];
 }
 
+/// The material of a page with the map of a plan.
+static alp_result material_of(alpi_gltf_patcher *p, needs *all, const alpi_gltf_plan *plan,
+                              uint32_t page, size_t *written)
+{
+    need wanted = {.page = page,
+                   .occluded = plan->occluded,
+                   .lit = plan->lit,
+                   .cleared = plan->cleared,
+                   .light_scale = light_scale(p, plan)};
+    memcpy(wanted.sets, plan->sets, sizeof wanted.sets);
+    ALP_TRY(alpi_patcher_original(p, plan, &wanted.old));
+    return find_material(p, all, &wanted, written);
+}
+
+static alp_result add_mapped(alpi_gltf_patcher *p, size_t material)
+{
+    void *items = p->mapped;
+    ALP_TRY(
+        alpi_grow(p->context, &items, &p->mapped_capacity, p->mapped_count + 1, sizeof *p->mapped));
+    p->mapped = items;
+    p->mapped[p->mapped_count++] = material;
+    return ALP_OK;
+}
+
+/// The materials that variants of a piece can switch to.
+static alp_result write_variants(alpi_gltf_patcher *p, needs *all, const alpi_gltf_plan *plan,
+                                 alpi_gltf_piece *piece)
+{
+    json_t *mappings =
+        alpi_gltf_mappings(alpi_gltf_primitive(p->document, plan->mesh, plan->primitive));
+    piece->mapped = p->mapped_count;
+    for (size_t i = 0; i < json_array_size(mappings); i++) {
+        const size_t material = alpi_patcher_mapping(p, mappings, i);
+        alpi_gltf_plan variant;
+        size_t written = ALPI_GLTF_NONE;
+        if (material == plan->material) {
+            written = piece->material;
+        } else if (alpi_patcher_variant(p, plan, material, &variant)) {
+            ALP_TRY(material_of(p, all, &variant, piece->page, &written));
+        }
+        ALP_TRY(add_mapped(p, written));
+    }
+    return ALP_OK;
+}
+
 static alp_result write_materials(alpi_gltf_patcher *p, needs *all)
 {
     size_t count = p->lists[ALPI_GLTF_MATERIALS].count;
     ALPI_TRY_NEW(p->context, all->has_other_users, count);
     ALPI_TRY_NEW(p->context, all->edited, count);
-    ALP_TRY(find_other_users(p, all->has_other_users));
+    ALP_TRY(alpi_patcher_other_users(p, all->has_other_users));
     for (size_t i = 0; i < p->plan_count; i++) {
         const alpi_gltf_plan *plan = &p->plans[i];
-        size_t original;
-        ALP_TRY(alpi_patcher_original(p, plan, &original));
         for (size_t k = 0; k < plan->piece_count; k++) {
             alpi_gltf_piece *piece = &p->pieces[plan->piece_first + k];
-            need wanted = {.old = original,
-                           .page = piece->page,
-                           .occluded = plan->occluded,
-                           .lit = plan->lit,
-                           .cleared = plan->cleared,
-                           .light_scale = light_scale(p, plan)};
-            memcpy(wanted.sets, plan->sets, sizeof wanted.sets);
-            ALP_TRY(find_material(p, all, &wanted, &piece->material));
+            ALP_TRY(material_of(p, all, plan, piece->page, &piece->material));
+            ALP_TRY(write_variants(p, all, plan, piece));
         }
     }
     return ALP_OK;
+}
+
+/// Viewers draw an unlit material in its base colour alone.
+static void warn_of_unlit(const alpi_gltf_patcher *p, const needs *all)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        const need *n = &all->items[i];
+        count += (n->occluded || n->page == ALPI_NONE) && !n->lit && n->old != ALPI_GLTF_NONE &&
+                 alpi_gltf_extension(alpi_gltf_item(p->document, "materials", n->old),
+                                     "KHR_materials_unlit") != NULL;
+    }
+    if (count > 0) {
+        alpi_warn(p->context, "unlit", p->document->path,
+                  "%zu materials are unlit (KHR_materials_unlit): viewers will not show their "
+                  "occlusion map; take the extension out, or bake --atlas vertex",
+                  count);
+    }
 }
 
 alp_result alpi_patcher_materials(alpi_gltf_patcher *p)
 {
     needs all = {0};
     alp_result result = write_materials(p, &all);
+    if (result == ALP_OK) {
+        warn_of_unlit(p, &all);
+        alpi_patcher_warn_of_variants(p);
+    }
     if (result == ALP_OK && p->cleared_count > 0) {
         alpi_note(p->context, "occlusion-removed", p->document->path,
                   "%zu materials lose their own occlusion map, by which viewers would darken the "

@@ -13,6 +13,8 @@ alp_result alpi_patcher_original(const alpi_gltf_patcher *patcher, const alpi_gl
                                  size_t *material);
 /// Writes into a new copy what it is a copy of, where nothing is said there already.
 alp_result alpi_patcher_mark_copy(alpi_gltf_patcher *patcher, size_t material, alpi_bytes *text);
+/// Makes animations of materials (KHR_animation_pointer) move the copies too.
+void alpi_patcher_follow_pointers(alpi_gltf_patcher *patcher);
 
 /// A material that shows baked light.
 typedef struct alpi_gltf_light_use {

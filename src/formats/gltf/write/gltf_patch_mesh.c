@@ -12,6 +12,7 @@
 #include "formats/gltf/write/gltf_patch_instances.h"
 #include "formats/gltf/write/gltf_patch_plan.h"
 #include "formats/gltf/write/gltf_patch_sets.h"
+#include "formats/gltf/write/gltf_patch_users.h"
 #include "formats/gltf/write/gltf_patch_vertex.h"
 
 #include <math.h>
@@ -260,6 +261,27 @@ static bool any_compressed(const alpi_gltf_patcher *p, const alpi_gltf_rewrite *
     return any;
 }
 
+/// The materials that variants switch to.
+static void edit_variants(const alpi_gltf_patcher *p, alpi_edits *edits, const alpi_gltf_rewrite *r,
+                          const alpi_gltf_piece *piece)
+{
+    const char *text = p->document->text;
+    alpi_json_span mappings, material;
+    if (p->mapped == NULL ||
+        !alpi_json_at(text, r->span, "extensions/KHR_materials_variants/mappings", &mappings)) {
+        return;
+    }
+    const size_t count = json_array_size(alpi_gltf_mappings(r->primitive));
+    alpi_json_cursor cursor = alpi_json_open(text, mappings);
+    for (size_t i = 0; i < count && alpi_json_next(&cursor); i++) {
+        const size_t written = p->mapped[piece->mapped + i];
+        if (written != ALPI_GLTF_NONE &&
+            alpi_json_find(text, cursor.value, "material", &material)) {
+            alpi_edits_replace(edits, material, "%zu", written);
+        }
+    }
+}
+
 static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
                                  const alpi_gltf_rewrite *r, const alpi_gltf_piece *piece)
 {
@@ -287,6 +309,7 @@ static alp_result edit_primitive(alpi_gltf_patcher *p, alpi_edits *edits,
     if (piece->material != r->plan->material) {
         alpi_edits_set_index(edits, r->span, "material", piece->material);
     }
+    edit_variants(p, edits, r, piece);
     return ALP_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "formats/gltf/write/gltf_patch_instances.h"
 #include "formats/gltf/write/gltf_patch_material.h"
 #include "formats/gltf/write/gltf_patch_sets.h"
+#include "formats/gltf/write/gltf_patch_users.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,27 +75,6 @@ static bool has_texcoord(json_t *primitive, uint32_t set)
     return json_object_get(json_object_get(primitive, "attributes"), name) != NULL;
 }
 
-/// Whether the occlusion map goes to a material, or values at vertices to its primitives.
-static bool gets_occlusion(const alpi_gltf_patcher *p, size_t material)
-{
-    const bool keeps =
-        p->patch->existing_ao == ALPI_EXISTING_AO_KEEP && material != ALPI_GLTF_NONE &&
-        json_object_get(alpi_gltf_item(p->document, "materials", material), "occlusionTexture") !=
-            NULL;
-    return (p->patch->page_pngs != NULL || p->patch->vertex_values != NULL) && !keeps;
-}
-
-/// Whether the file's own occlusion map goes from a material that gets a light map. three.js would
-/// multiply the light by it, and the light is occluded already.
-static bool loses_occlusion(const alpi_gltf_patcher *p, const alpi_gltf_plan *plan)
-{
-    return plan->lit && p->patch->light->form != ALPI_LIGHT_FORM_EMISSIVE &&
-           p->patch->page_pngs == NULL && p->patch->existing_ao != ALPI_EXISTING_AO_KEEP &&
-           plan->material != ALPI_GLTF_NONE &&
-           json_object_get(alpi_gltf_item(p->document, "materials", plan->material),
-                           "occlusionTexture") != NULL;
-}
-
 static alp_result find_mesh(const alpi_gltf_patcher *p, size_t node, size_t *mesh)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
@@ -138,10 +118,7 @@ static alp_result plan_surface(alpi_gltf_patcher *p, uint32_t index, alpi_gltf_p
     }
     ALP_TRY(
         alpi_gltf_index(p->document, primitive, "material", "materials", owner, &plan->material));
-    plan->packed = alpi_patcher_packed(p, plan->material) != ALPI_NONE;
-    plan->occluded = gets_occlusion(p, plan->material);
-    plan->lit = alpi_patcher_is_lit(p, surface);
-    plan->cleared = loses_occlusion(p, plan);
+    alpi_patcher_choose_maps(p, plan);
     *wanted = plan->packed || plan->occluded || plan->lit;
     if (!*wanted) {
         return ALP_OK;

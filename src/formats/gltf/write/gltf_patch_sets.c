@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_tree.h"
+#include "formats/gltf/write/gltf_patch_users.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -202,14 +203,17 @@ static alp_result search_primitive(const alpi_gltf_patcher *p, search *s, json_t
     const bool maps = p->patch->vertex_values == NULL; // else materials stay as they are
     const alpi_gltf_maps replaced = {maps && (plan->packed || plan->occluded),
                                      maps && !plan->packed && plan->lit, maps && plan->cleared};
-    json_t *variants = alpi_gltf_extension(primitive, "KHR_materials_variants");
-    json_t *mappings = json_object_get(variants, "mappings");
+    json_t *mappings = alpi_gltf_mappings(primitive);
     for (size_t i = 0; i < json_array_size(mappings); i++) {
-        json_t *index = json_object_get(json_array_get(mappings, i), "material");
-        const double value = json_number_value(index);
-        if (value >= 0.0 && value < (double)p->lists[ALPI_GLTF_MATERIALS].count) {
-            json_t *material = alpi_gltf_item(p->document, "materials", (size_t)value);
-            ALP_TRY(search_material(p, s, material, (alpi_gltf_maps){0}));
+        const size_t index = alpi_patcher_mapping(p, mappings, i);
+        alpi_gltf_plan variant;
+        alpi_gltf_maps gone = {0};
+        if (alpi_patcher_variant(p, plan, index, &variant)) {
+            gone = (alpi_gltf_maps){variant.occluded, variant.lit, variant.cleared};
+        }
+        if (index != ALPI_GLTF_NONE && index != plan->material) {
+            json_t *material = alpi_gltf_item(p->document, "materials", index);
+            ALP_TRY(search_material(p, s, material, gone));
         }
     }
     if (plan->material != ALPI_GLTF_NONE) {

@@ -28,7 +28,17 @@ typedef enum state {
     SAMPLER_OF_ANIMATION,
     INSTANCING,
     VARIANTS,
-    NAME, // NAME + kind: a number that names an element
+    FEATURES,        // EXT_mesh_features
+    TEXTURE_INFO,    // of an extension whose other members name nothing
+    METADATA,        // EXT_structural_metadata
+    TABLE,           // one of its propertyTables
+    TABLE_COLUMNS,   // every member is a column
+    COLUMN,          // names views
+    PICTURE,         // one of its propertyTextures
+    PICTURE_COLUMNS, // every member is a textureInfo
+    POINTING,        // KHR_animation_pointer
+    POINTER,         // a string that names an element
+    NAME,            // NAME + kind: a number that names an element
     NAME_END = (int)NAME + (int)ALPI_GLTF_KIND_COUNT
 } state;
 
@@ -87,6 +97,24 @@ static const struct step {
     {"KHR_lights_punctual", EXTENSIONS, PLAIN},
     {"KHR_texture_transform", EXTENSIONS, PLAIN},
     {"KHR_mesh_quantization", EXTENSIONS, PLAIN},
+    {"KHR_node_visibility", EXTENSIONS, PLAIN},
+    {"KHR_xmp", EXTENSIONS, PLAIN},
+    {"KHR_xmp_json_ld", EXTENSIONS, PLAIN},
+    {"EXT_instance_features", EXTENSIONS, PLAIN},
+    {"EXT_mesh_features", EXTENSIONS, FEATURES},
+    {"featureIds", FEATURES, FEATURES},
+    {"texture", FEATURES, TEXTURE_INFO},
+    {"index", TEXTURE_INFO, NAME + (int)ALPI_GLTF_TEXTURES},
+    {"EXT_structural_metadata", EXTENSIONS, METADATA},
+    {"propertyTables", METADATA, TABLE},
+    {"properties", TABLE, TABLE_COLUMNS},
+    {"values", COLUMN, NAME + (int)ALPI_GLTF_BUFFER_VIEWS},
+    {"arrayOffsets", COLUMN, NAME + (int)ALPI_GLTF_BUFFER_VIEWS},
+    {"stringOffsets", COLUMN, NAME + (int)ALPI_GLTF_BUFFER_VIEWS},
+    {"propertyTextures", METADATA, PICTURE},
+    {"properties", PICTURE, PICTURE_COLUMNS},
+    {"KHR_animation_pointer", EXTENSIONS, POINTING},
+    {"pointer", POINTING, POINTER},
     {"alpenglow", EXTRAS, PLAIN}, // ours name nothing by numbers that matter
     {ALPI_GLTF_BLEND, EXTRAS, PLAIN},
     {"lightmap", EXTRAS, PLAIN},
@@ -113,7 +141,9 @@ static state find_state(const char *text, state from, const alpi_json_cursor *at
     if (!at->is_object || from == OPEN) {
         return from;
     }
-    if (from != ATTRIBUTES && from != EXTENSIONS && from != EXTRAS) {
+    const bool any_name = from == ATTRIBUTES || from == EXTENSIONS || from == EXTRAS ||
+                          from == TABLE_COLUMNS || from == PICTURE_COLUMNS;
+    if (!any_name) {
         if (alpi_json_key_is(text, at->key, "extras")) {
             return EXTRAS;
         }
@@ -131,6 +161,10 @@ static state find_state(const char *text, state from, const alpi_json_cursor *at
         return MATERIAL;
     case ATTRIBUTES:
         return (state)(NAME + (int)ALPI_GLTF_ACCESSORS);
+    case TABLE_COLUMNS:
+        return COLUMN;
+    case PICTURE_COLUMNS:
+        return TEXTURE_INFO;
     case EXTENSIONS:
         return begins_with(text, at->key, "KHR_materials_") ? MATERIAL : OPEN;
     case ROOT:
@@ -167,13 +201,11 @@ static bool read_number(const char *text, alpi_json_span span, size_t *index)
     return fits && (double)*index == value;
 }
 
-static alp_result note_name(walk *w, const frame *at, state is, alpi_json_span span)
+static alp_result note_name(walk *w, const frame *at, alpi_gltf_kind kind, alpi_json_span span)
 {
     alpi_gltf_references *found = w->found;
-    alpi_gltf_reference item = {.kind = (alpi_gltf_kind)((int)is - (int)NAME),
-                                .span = span,
-                                .owner_kind = at->owner_kind,
-                                .owner = at->owner};
+    alpi_gltf_reference item = {
+        .kind = kind, .span = span, .owner_kind = at->owner_kind, .owner = at->owner};
     if (!read_number(w->text, span, &item.index)) {
         return ALP_OK;
     }
@@ -184,6 +216,67 @@ static alp_result note_name(walk *w, const frame *at, state is, alpi_json_span s
     return ALP_OK;
 }
 
+// --- JSON pointers -------------------------------------------------------------------------------
+
+static const char *const roots[ALPI_GLTF_KIND_COUNT] = {[ALPI_GLTF_ACCESSORS] = "accessors",
+                                                        [ALPI_GLTF_BUFFERS] = "buffers",
+                                                        [ALPI_GLTF_BUFFER_VIEWS] = "bufferViews",
+                                                        [ALPI_GLTF_IMAGES] = "images",
+                                                        [ALPI_GLTF_MATERIALS] = "materials",
+                                                        [ALPI_GLTF_MESHES] = "meshes",
+                                                        [ALPI_GLTF_NODES] = "nodes",
+                                                        [ALPI_GLTF_SAMPLERS] = "samplers",
+                                                        [ALPI_GLTF_TEXTURES] = "textures"};
+
+/// Whether a string ("/materials/3/…") begins with the name of a root array and a number.
+/// @param number its digits
+static bool find_pointed(const char *text, alpi_json_span string, alpi_gltf_kind *kind,
+                         alpi_json_span *number)
+{
+    const char *begin = text + string.begin + 1, *end = text + string.end - 1;
+    for (int k = 0; k < ALPI_GLTF_KIND_COUNT; k++) {
+        const size_t length = strlen(roots[k]);
+        if ((size_t)(end - begin) <= length + 2 || begin[0] != '/' ||
+            memcmp(begin + 1, roots[k], length) != 0 || begin[length + 1] != '/') {
+            continue;
+        }
+        const char *digits = begin + length + 2, *after = digits;
+        while (after < end && *after >= '0' && *after <= '9') {
+            after++;
+        }
+        *kind = (alpi_gltf_kind)k;
+        *number = (alpi_json_span){(size_t)(digits - text), (size_t)(after - text)};
+        return after > digits && (after == end || *after == '/');
+    }
+    return false;
+}
+
+/// A string that is a pointer, or may be one. One with escapes is not taken apart.
+static bool may_point(const char *text, alpi_json_span string)
+{
+    alpi_gltf_kind kind;
+    alpi_json_span number;
+    return find_pointed(text, string, &kind, &number) ||
+           (string.end - string.begin > 2 &&
+            memchr(text + string.begin, '\\', string.end - string.begin) != NULL &&
+            (text[string.begin + 1] == '/' || text[string.begin + 1] == '\\'));
+}
+
+/// A pointer of KHR_animation_pointer.
+static alp_result note_pointer(walk *w, const frame *at, alpi_json_span string)
+{
+    alpi_gltf_kind kind;
+    alpi_json_span number;
+    if (w->text[string.begin] != '"') {
+        return ALP_OK;
+    }
+    if (find_pointed(w->text, string, &kind, &number)) {
+        return note_name(w, at, kind, number);
+    }
+    w->found->has_pointers |= may_point(w->text, string);
+    return ALP_OK;
+}
+
 /// Something unknown: its numbers may name anything.
 static alp_result note_open(walk *w, const alpi_json_cursor *at)
 {
@@ -191,7 +284,11 @@ static alp_result note_open(walk *w, const alpi_json_cursor *at)
     const char *value = w->text + at->value.begin;
     size_t index;
     if (value[0] == '"') {
-        found->has_pointers |= at->value.end - at->value.begin > 2 && value[1] == '/';
+        alpi_gltf_kind kind;
+        alpi_json_span number;
+        found->has_pointers |= may_point(w->text, at->value);
+        found->points_at_materials |=
+            find_pointed(w->text, at->value, &kind, &number) && kind == ALPI_GLTF_MATERIALS;
         return ALP_OK;
     }
     if (at->is_object && alpi_json_key_is(w->text, at->key, "texCoord")) {
@@ -248,9 +345,12 @@ static alp_result visit(walk *w)
         const bool is_name = (int)is >= (int)NAME; // morph targets are a list of attributes
         return enter(w, cursor->value, is_name ? PLAIN : is, &parent);
     }
-    return (int)is >= (int)NAME ? note_name(w, &parent, is, cursor->value)
-           : is == OPEN         ? note_open(w, cursor)
-                                : ALP_OK;
+    if ((int)is >= (int)NAME) {
+        return note_name(w, &parent, (alpi_gltf_kind)((int)is - (int)NAME), cursor->value);
+    }
+    return is == POINTER ? note_pointer(w, &parent, cursor->value)
+           : is == OPEN  ? note_open(w, cursor)
+                         : ALP_OK;
 }
 
 alp_result alpi_gltf_references_find(const char *text, alpi_json_span root,

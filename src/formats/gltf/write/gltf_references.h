@@ -23,8 +23,9 @@ typedef struct alpi_gltf_references {
     size_t count, capacity;
     size_t *pins; // numbers that may be those of elements
     size_t pin_count, pin_capacity;
-    bool buffers_are_named; // by something unknown
-    bool has_pointers;      // strings that may be JSON pointers ("/accessors/3"): nothing is sure
+    bool buffers_are_named;   // by something unknown
+    bool has_pointers;        // unknown strings that may be JSON pointers: nothing is sure
+    bool points_at_materials; // one of them is ("/materials/0/...")
 } alpi_gltf_references;
 
 /// Finds them in well-formed text; destroyed by the caller, on failure too.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What an earlier bake left in a document and nothing reads any more: copies of materials,
-// textures, images, samplers, accessors, views, buffers. Taken out where they are surely ours: they
-// bear our mark, and nothing that we know names them, nor anything that we do not know by a number
-// that could be theirs. Numbers of elements of others change only where one of ours stood before
-// them.
+// What nothing reads any more in a written document: copies of materials, textures, images,
+// samplers, accessors, views, buffers. An earlier bake left it, and it bears our mark, or this bake
+// made it useless: something read it before. Neither goes where something that we do not know has a
+// number that could be its own. What nobody read in the document stays. Numbers of elements change
+// where others went before them.
 #include "formats/gltf/write/gltf_tidy.h"
 
 #include "base/memory.h"
@@ -21,20 +21,7 @@ static const char *const names[ALPI_GLTF_KIND_COUNT] = {
 static const alpi_gltf_kind order[] = {
     ALPI_GLTF_MATERIALS, ALPI_GLTF_TEXTURES,     ALPI_GLTF_IMAGES, ALPI_GLTF_SAMPLERS,
     ALPI_GLTF_ACCESSORS, ALPI_GLTF_BUFFER_VIEWS, ALPI_GLTF_BUFFERS};
-enum { KINDS = sizeof order / sizeof *order, MARKED = 5 }; // the first five bear marks
-
-bool alpi_gltf_was_baked(const alpi_gltf_document *document)
-{
-    for (int k = 0; k < MARKED; k++) {
-        const size_t count = alpi_gltf_count(document, names[order[k]]);
-        for (size_t i = 0; i < count; i++) {
-            if (alpi_gltf_mark(document, names[order[k]], i) != NULL) {
-                return true;
-            }
-        }
-    }
-    return false;
-}
+enum { KINDS = sizeof order / sizeof *order, MARKED = 5 }; // the first five may bear marks
 
 // --- what is there -------------------------------------------------------------------------------
 
@@ -51,6 +38,7 @@ static alp_result list_kind(alpi_gltf_tidying *t, alpi_gltf_kind kind)
     t->counts[kind] = count;
     ALPI_TRY_NEW(t->context, t->spans[kind], count);
     ALPI_TRY_NEW(t->context, t->ours[kind], count);
+    ALPI_TRY_NEW(t->context, t->read[kind], count);
     ALPI_TRY_NEW(t->context, t->gone[kind], count);
     ALPI_TRY_NEW(t->context, t->moved[kind], count);
     alpi_json_find(t->text, t->root, names[kind], &array);
@@ -84,14 +72,10 @@ static void find_ours(alpi_gltf_tidying *t, alpi_gltf_kind kind)
 }
 
 /// The first element that may go or come to have another number: none before what something
-/// unknown may name. What others made moves only where all that names it is known for certain.
+/// unknown may name.
 static size_t find_tail(const alpi_gltf_tidying *t, alpi_gltf_kind kind)
 {
-    const bool may_move = kind == ALPI_GLTF_BUFFER_VIEWS || kind == ALPI_GLTF_BUFFERS;
     size_t first = 0;
-    for (size_t i = 0; i < t->counts[kind] && !may_move; i++) {
-        first = t->ours[kind][i] ? first : i + 1;
-    }
     for (size_t i = 0; i < t->references.pin_count && kind != ALPI_GLTF_BUFFERS; i++) {
         const size_t pin = t->references.pins[i];
         first = pin < t->counts[kind] && pin >= first ? pin + 1 : first;
@@ -103,7 +87,7 @@ static void decide(alpi_gltf_tidying *t, alpi_gltf_kind kind, size_t first)
 {
     bool *gone = t->gone[kind];
     for (size_t i = first; i < t->counts[kind]; i++) {
-        gone[i] = t->ours[kind][i];
+        gone[i] = t->ours[kind][i] || t->read[kind][i];
     }
     for (size_t i = 0; i < t->references.count; i++) {
         const alpi_gltf_reference *r = &t->references.items[i];
@@ -250,6 +234,27 @@ static void edit_text(alpi_gltf_tidying *t)
     alpi_edits_remove_all(&t->edits, t->root, emptied, emptied_count);
 }
 
+// --- the document before -------------------------------------------------------------------------
+
+/// Marks what something read in the document. Its elements are the first of the written file.
+static alp_result find_read(alpi_gltf_tidying *t, const alpi_gltf_document *document)
+{
+    alpi_gltf_references before = {.context = t->context};
+    alpi_json_span root;
+    alp_result result = alpi_json_value(document->text, 0, document->text_size, &root)
+                            ? alpi_gltf_references_find(document->text, root, &before)
+                            : ALP_OK;
+    for (size_t i = 0; i < before.count; i++) {
+        const alpi_gltf_reference *r = &before.items[i];
+        const size_t count = t->read[r->kind] != NULL ? t->counts[r->kind] : 0;
+        if (r->index < count && r->index < alpi_gltf_count(document, names[r->kind])) {
+            t->read[r->kind][r->index] = true;
+        }
+    }
+    alpi_gltf_references_destroy(&before);
+    return result;
+}
+
 // --- all of it -----------------------------------------------------------------------------------
 
 static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
@@ -258,6 +263,13 @@ static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
         ALP_TRY(list_kind(t, order[k]));
     }
     ALP_TRY(alpi_gltf_references_find(t->text, t->root, &t->references));
+    ALP_TRY(find_read(t, from->document));
+    if (t->references.points_at_materials && from->copy_count > 0) {
+        alpi_warn(t->context, "copies", from->document->path,
+                  "an extension that is not known points at materials (\"/materials/0/...\"), of "
+                  "which this bake made %zu copies: it does not reach the copies",
+                  from->copy_count);
+    }
     for (int k = 0; k < KINDS && !t->references.has_pointers; k++) {
         const alpi_gltf_kind kind = order[k];
         if (k >= MARKED) {
@@ -265,7 +277,7 @@ static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
         }
         const bool stays = kind == ALPI_GLTF_BUFFERS && from->first_stays && t->counts[kind] > 0;
         if (stays) {
-            t->ours[kind][0] = false;
+            t->ours[kind][0] = t->read[kind][0] = false;
         }
         if (kind == ALPI_GLTF_BUFFERS) {
             ALP_TRY(alpi_gltf_tidy_gather(t, from));
@@ -316,6 +328,7 @@ alp_result alpi_gltf_tidy(alp_context *context, const alpi_gltf_leftovers *from,
     for (int k = 0; k < KINDS; k++) {
         alpi_release(context, t.spans[order[k]]);
         alpi_release(context, t.ours[order[k]]);
+        alpi_release(context, t.read[order[k]]);
         alpi_release(context, t.gone[order[k]]);
         alpi_release(context, t.moved[order[k]]);
     }

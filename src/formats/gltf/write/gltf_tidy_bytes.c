@@ -149,6 +149,9 @@ static alp_result cut(alpi_gltf_tidying *t, extents *kept, extents *cuts, alpi_b
 
 alp_result alpi_gltf_tidy_bytes(alpi_gltf_tidying *t, alpi_bytes *bin)
 {
+    if (t->counts[ALPI_GLTF_BUFFERS] > 0 && t->gone[ALPI_GLTF_BUFFERS][0]) {
+        return ALP_OK; // the whole buffer goes, and its text with it
+    }
     const size_t views = t->counts[ALPI_GLTF_BUFFER_VIEWS];
     extents kept = {.items = ALPI_NEW(t->context, extent, 3 * views)};
     extents cuts = {.items = ALPI_NEW(t->context, extent, views)};

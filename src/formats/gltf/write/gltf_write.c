@@ -139,8 +139,7 @@ static alp_result assemble_gltf(const alpi_gltf_document *document, const alpi_b
                                 alpi_bytes *gltf)
 {
     if (!document->is_glb) {
-        alpi_bytes_add(gltf, document->file_bytes,
-                       (size_t)(document->text - (const char *)document->file_bytes));
+        alpi_bytes_add(gltf, document->file_bytes, document->text_begin);
     } else if (document->more_chunks_size > 0) {
         alpi_note(document->context, "chunks", document->path,
                   "chunks after BIN are left out: a .gltf has no place for them");
@@ -180,7 +179,7 @@ static bool first_is_bin(const alpi_gltf_document *document)
 static alp_result add_side_files(writing *w)
 {
     const alpi_gltf_document *document = w->document;
-    if (first_is_bin(document)) {
+    if (first_is_bin(document) && !w->buffers_gone[0]) {
         ALP_TRY(add_side_file(w, w->names.bin, w->bin.bytes, w->bin.size));
     }
     if (w->patcher.data.size > 0) {
@@ -215,23 +214,21 @@ static alp_result add_light_files(writing *w)
     return ALP_OK;
 }
 
-/// What an earlier bake left goes. Bytes are cut where they are written anew anyway; a file beside
-/// a .gltf is dropped as a whole or stays.
+/// What nothing reads any more goes. Bytes are cut where they are written anew anyway; a file
+/// beside a .gltf is dropped as a whole or stays.
 static alp_result tidy(writing *w, alpi_gltf_home home)
 {
     const alpi_gltf_document *document = w->document;
-    if (!alpi_gltf_was_baked(document)) {
-        return ALP_OK;
-    }
     ALPI_TRY_NEW(document->context, w->buffers_gone, document->buffer_count);
-    const bool is_bin = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED ||
-                        (home == ALPI_HOME_FILE && first_is_bin(document));
+    const bool is_chunk = home == ALPI_HOME_BIN || home == ALPI_HOME_MERGED;
+    const bool is_bin = is_chunk || (home == ALPI_HOME_FILE && first_is_bin(document));
     const bool has_file = home == ALPI_HOME_FILE && w->patcher.data.size > 0;
     const bool keeps_buffers = home != ALPI_HOME_MERGED; // else they are others now
-    const alpi_gltf_leftovers from = {.first_stays = is_bin || w->to_glb,
+    const alpi_gltf_leftovers from = {.first_stays = is_chunk || w->to_glb,
                                       .bin = is_bin ? &w->bin : NULL,
                                       .data = has_file ? &w->patcher.data : NULL,
                                       .document = document,
+                                      .copy_count = w->patcher.copy_count,
                                       .images_gone = w->patcher.image_embedded,
                                       .buffers_gone = w->buffers_gone,
                                       .image_count = alpi_gltf_count(document, "images"),

@@ -256,5 +256,7 @@ void orm_check_meshes_kept(const orm_bake *p)
     assert_true(alpi_json_at(new->text, root, "meshes", &b));
     assert_int_equal(a.end - a.begin, b.end - b.begin);
     assert_memory_equal(old->text + a.begin, new->text + b.begin, a.end - a.begin);
-    assert_memory_equal(old->bin, new->bin, old->bin_size);
+    json_t *view = alpi_gltf_item(old, "bufferViews", 7); // the image, which may go
+    const json_int_t begin = json_integer_value(json_object_get(view, "byteOffset"));
+    assert_memory_equal(old->bin, new->bin, (size_t)begin);
 }

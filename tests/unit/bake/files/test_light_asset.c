@@ -297,7 +297,7 @@ TEST(own_occlusion_goes_where_light_comes)
         {ALP_LIGHTMAP_AS_EMISSIVE, ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE, "{\"index\":0}",
          "{\"index\":0,\"strength\":0.5}"},
         {ALP_LIGHTMAP_AS_MOZ, ALP_MAP_AO | ALP_MAP_LIGHT, ALP_EXISTING_AO_REPLACE,
-         "{\"index\":1,\"texCoord\":1}", "{\"index\":1,\"texCoord\":1}"},
+         "{\"index\":0,\"texCoord\":1}", "{\"index\":0,\"texCoord\":1}"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         orm_bake p = start(occluded, cases[i].as);

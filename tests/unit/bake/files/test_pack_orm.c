@@ -93,14 +93,14 @@ TEST(red_is_the_map_and_nothing_else_changes)
         check_others(&p, 0, channels);
         orm_check_meshes_kept(&p);
         assert_string_equal(orm_text(&p, "asset/extras/alpenglow/occlusion/ao_into"), "\"orm\"");
-        // both materials read one new image, and the old one is still there
-        assert_int_equal(p.result->image_count, 2);
-        assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
-        assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":1}");
+        // both materials read one new image, and nobody the old one, which goes
+        assert_int_equal(p.result->image_count, 1);
+        assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":0}");
+        assert_string_equal(orm_text(&p, "materials/1/occlusionTexture"), "{\"index\":0}");
         assert_string_equal(
-            orm_text(&p, "materials/1/pbrMetallicRoughness/metallicRoughnessTexture/index"), "1");
-        assert_string_equal(orm_text(&p, "textures/1"),
-                            "{\"sampler\":0,\"source\":1,\"extras\":{\"alpenglow\":\"map\"}}");
+            orm_text(&p, "materials/1/pbrMetallicRoughness/metallicRoughnessTexture/index"), "0");
+        assert_string_equal(orm_text(&p, "textures/0"),
+                            "{\"sampler\":0,\"source\":0,\"extras\":{\"alpenglow\":\"map\"}}");
         orm_stop(&p);
     }
 }
@@ -133,7 +133,7 @@ static void check_reader(int wrap)
     orm_run(&p);
     assert_string_equal(
         orm_text(&p, "materials/0/occlusionTexture"),
-        "{\"index\":1,\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,-1]}}}");
+        "{\"index\":0,\"extensions\":{\"KHR_texture_transform\":{\"scale\":[1,-1]}}}");
     double sum = 0.0;
     for (int i = 0; i < 2000; i++) {
         double s = 0.05 + 0.9 * (i % 50) / 49.0, t = 0.05 + 0.9 * (double)(i / 50 % 20) / 19.0;
@@ -231,7 +231,7 @@ TEST(multiply_takes_the_old_red_where_it_was_occlusion)
     assert_memory_equal(alp_lightmap_page(p.lightmap, 0, NULL, NULL),
                         alp_lightmap_page(alone, 0, NULL, NULL), sizeof(float[64][64][4]));
     alp_lightmap_destroy(alone);
-    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":1}");
+    assert_string_equal(orm_text(&p, "materials/0/occlusionTexture"), "{\"index\":0}");
     orm_stop(&p);
 }
 
@@ -448,7 +448,7 @@ TEST(a_gltf_gets_the_image_beside_it)
     orm_bake p = orm_start(&asset);
     snprintf(strrchr(p.path, '.'), 8, ".gltf");
     orm_run(&p);
-    assert_string_equal(orm_text(&p, "images/1/uri"), "\"asset%20baked.orm.png\"");
+    assert_string_equal(orm_text(&p, "images/0/uri"), "\"asset%20baked.orm.png\"");
     check_red(&p, 0, asset.floor, 0.0f);
     check_others(&p, 1, 4);
     // without leave to overwrite, the image stops the next bake before it begins

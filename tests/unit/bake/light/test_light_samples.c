@@ -31,7 +31,7 @@ typedef struct stage {
     alpi_receivers receivers;
     alpi_bake_job job;
     alpi_light_bake light;
-    alpi_light_direct direct;
+    alpi_light_rounds rounds;
 } stage;
 
 static void start(uint32_t workers, stage *s)
@@ -54,24 +54,21 @@ static void start(uint32_t workers, stage *s)
                                  .order = s->r.lattice.order,
                                  .count = s->r.texels.count,
                                  .lattice = &s->r.lattice};
-    s->direct = (alpi_light_direct){.light = &s->light,
-                                    .solution = &s->r.solution,
-                                    .values = s->r.solution.direct,
-                                    .most = FIRST,
-                                    .limit = 65536.0,
-                                    .power = 0.6};
-    s->direct.fresh = ALPI_NEW(s->context, alpi_reference_value, s->light.count);
-    s->direct.counts = ALPI_NEW(s->context, uint32_t, s->light.count);
-    assert_true(s->direct.fresh != NULL && s->direct.counts != NULL);
+    s->light.settings.most_rays = 65536;
+    s->rounds = (alpi_light_rounds){
+        .light = &s->light, .solution = &s->r.solution, .direct = {.most = FIRST, .power = 0.6}};
+    s->rounds.fresh.values = ALPI_NEW(s->context, alpi_reference_value, s->light.count);
+    s->rounds.direct.counts = ALPI_NEW(s->context, uint32_t, s->light.count);
+    assert_true(s->rounds.fresh.values != NULL && s->rounds.direct.counts != NULL);
     for (uint32_t t = 0; t < s->light.count; t++) {
-        s->direct.counts[t] = FIRST;
+        s->rounds.direct.counts[t] = FIRST;
     }
 }
 
 static void finish(stage *s)
 {
-    alpi_release(s->context, s->direct.fresh);
-    alpi_release(s->context, s->direct.counts);
+    alpi_release(s->context, s->rounds.fresh.values);
+    alpi_release(s->context, s->rounds.direct.counts);
     test_radiant_close(&s->r);
     alp_context_destroy(s->context);
 }
@@ -81,7 +78,7 @@ static double find_error(const stage *s)
 {
     double sum = 0.0;
     for (uint32_t t = 0; t < s->light.count; t++) {
-        const float *v = s->direct.values[t].variance;
+        const float *v = s->r.solution.direct[t].variance;
         sum += ((double)v[0] + (double)v[1] + (double)v[2]) / 3.0;
     }
     return sqrt(sum / s->light.count);
@@ -91,7 +88,7 @@ static uint64_t count_dealt(const stage *s)
 {
     uint64_t sum = 0;
     for (uint32_t t = 0; t < s->light.count; t++) {
-        sum += s->direct.counts[t] - FIRST;
+        sum += s->rounds.direct.counts[t] - FIRST;
     }
     return sum;
 }
@@ -99,7 +96,7 @@ static uint64_t count_dealt(const stage *s)
 static bool deal(stage *s, alpi_light_goal goal)
 {
     bool dealt = false;
-    ASSERT_OK(s->context, alpi_light_add_samples(&s->direct, &goal, &dealt));
+    ASSERT_OK(s->context, alpi_light_add_samples(&s->rounds, &goal, &dealt));
     return dealt;
 }
 
@@ -112,16 +109,16 @@ TEST(noise_comes_down_to_what_is_wanted)
     assert_true(deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
     const double then = find_error(&s);
     print_message("%.4g to %.4g, wanted %.4g, predicted %.4g, %.1f samples a texel\n", first, then,
-                  wanted, s.direct.predicted, (double)count_dealt(&s) / s.light.count);
-    assert_true(s.direct.predicted <= wanted && s.direct.predicted > 0.8 * wanted);
-    ASSERT_NEAR(then / s.direct.predicted, 1.0, 0.25);
+                  wanted, s.rounds.direct.predicted, (double)count_dealt(&s) / s.light.count);
+    assert_true(s.rounds.direct.predicted <= wanted && s.rounds.direct.predicted > 0.8 * wanted);
+    ASSERT_NEAR(then / s.rounds.direct.predicted, 1.0, 0.25);
     uint32_t least = UINT32_MAX, most = 0;
     for (uint32_t t = 0; t < s.light.count; t++) {
-        least = s.direct.counts[t] < least ? s.direct.counts[t] : least;
-        most = s.direct.counts[t] > most ? s.direct.counts[t] : most;
+        least = s.rounds.direct.counts[t] < least ? s.rounds.direct.counts[t] : least;
+        most = s.rounds.direct.counts[t] > most ? s.rounds.direct.counts[t] : most;
     }
     assert_int_equal(least, FIRST);
-    assert_int_equal(most, s.direct.most);
+    assert_int_equal(most, s.rounds.direct.most);
     assert_true(most >= 64);
     finish(&s);
 }
@@ -139,7 +136,8 @@ TEST(some_texels_count_alone)
     assert_true(count_dealt(&s) == 0);
     uint32_t noisiest = 0;
     for (uint32_t t = 0; t < s.light.count; t++) {
-        const bool more = s.direct.values[t].variance[0] > s.direct.values[noisiest].variance[0];
+        const bool more =
+            s.r.solution.direct[t].variance[0] > s.r.solution.direct[noisiest].variance[0];
         noisiest = more ? t : noisiest;
     }
     among[noisiest] = 1;
@@ -147,9 +145,9 @@ TEST(some_texels_count_alone)
         deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5, .among = among}));
     uint32_t got = 0;
     for (uint32_t t = 0; t < s.light.count; t++) {
-        got += s.direct.counts[t] > FIRST;
+        got += s.rounds.direct.counts[t] > FIRST;
     }
-    assert_true(s.direct.counts[noisiest] > FIRST && got <= 9);
+    assert_true(s.rounds.direct.counts[noisiest] > FIRST && got <= 9);
     alpi_release(s.context, among);
     finish(&s);
 }
@@ -164,11 +162,11 @@ TEST(workers_change_nothing)
         assert_true(deal(&s[i], (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5}));
         const size_t count = s[0].light.count;
         assert_int_equal(s[i].light.count, count);
-        assert_memory_equal(s[i].direct.values, s[0].direct.values,
-                            count * sizeof *s[0].direct.values);
-        assert_memory_equal(s[i].direct.counts, s[0].direct.counts,
-                            count * sizeof *s[0].direct.counts);
-        assert_true(s[i].direct.predicted == s[0].direct.predicted);
+        assert_memory_equal(s[i].r.solution.direct, s[0].r.solution.direct,
+                            count * sizeof *s[0].r.solution.direct);
+        assert_memory_equal(s[i].rounds.direct.counts, s[0].rounds.direct.counts,
+                            count * sizeof *s[0].rounds.direct.counts);
+        assert_true(s[i].rounds.direct.predicted == s[0].rounds.direct.predicted);
     }
     for (int i = 0; i < 3; i++) {
         finish(&s[i]);
@@ -178,13 +176,13 @@ TEST(workers_change_nothing)
 /// Values of the first round stay as they are, to the bit.
 static void expect_nothing(stage *s, alpi_light_goal goal)
 {
-    const size_t size = s->light.count * sizeof *s->direct.values;
+    const size_t size = s->light.count * sizeof *s->r.solution.direct;
     alpi_reference_value *before = ALPI_NEW(s->context, alpi_reference_value, s->light.count);
     assert_non_null(before);
-    memcpy(before, s->direct.values, size);
+    memcpy(before, s->r.solution.direct, size);
     assert_false(deal(s, goal));
-    assert_memory_equal(before, s->direct.values, size);
-    assert_true(count_dealt(s) == 0 && s->direct.most == FIRST);
+    assert_memory_equal(before, s->r.solution.direct, size);
+    assert_true(count_dealt(s) == 0 && s->rounds.direct.most == FIRST);
     alpi_release(s->context, before);
 }
 
@@ -196,9 +194,9 @@ TEST(nothing_is_dealt_where_nothing_may_be)
     const alpi_light_goal good = {.wanted = 100.0 * first, .most = HUGE_VAL, .seed = 5};
     const alpi_light_goal bad = {.wanted = 0.1 * first, .most = HUGE_VAL, .seed = 5};
     expect_nothing(&s, good); // no texel is noisy
-    s.direct.limit = FIRST;
+    s.light.settings.most_rays = FIRST;
     expect_nothing(&s, bad);
-    s.direct.limit = FIRST + 7; // not even eight more
+    s.light.settings.most_rays = FIRST + 7; // not even eight more
     expect_nothing(&s, bad);
     finish(&s);
 }
@@ -210,11 +208,11 @@ TEST(limits_hold)
     static stage s;
     start(1, &s);
     const double wanted = 0.01 * find_error(&s);
-    s.direct.limit = 43.0;
+    s.light.settings.most_rays = 43;
     for (int round = 0; round < 4; round++) {
         deal(&s, (alpi_light_goal){.wanted = wanted, .most = HUGE_VAL, .seed = 5});
     }
-    assert_int_equal(s.direct.most, 40); // in eights
+    assert_int_equal(s.rounds.direct.most, 40); // in eights
     finish(&s);
     start(1, &s);
     const double most = 16.0 * s.light.count;
@@ -228,7 +226,7 @@ static uint32_t count_above(const stage *s, double error)
 {
     uint32_t above = 0;
     for (uint32_t t = 0; t < s->light.count; t++) {
-        above += (double)s->direct.values[t].variance[0] > error * error;
+        above += (double)s->r.solution.direct[t].variance[0] > error * error;
     }
     return above;
 }

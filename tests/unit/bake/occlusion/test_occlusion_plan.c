@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays of the next round: the error falls with the 0.7th power of the samples, so a round
 // multiplies them by (1.05 × error / wanted error)^(1 / 0.7), rounded up to 2, 3, 4, 6, 8, …, 64.
-#include "bake/occlusion/occlusion_state.h"
+#include "bake/occlusion/occlusion_plan.h"
 #include "test_support.h"
 
 #include <math.h>

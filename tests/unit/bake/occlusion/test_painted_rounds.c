@@ -79,6 +79,7 @@ static alp_result run(painting *s, const alpi_occlusion_task *options,
     ASSERT_OK(s->context, alpi_occlusion_prepare(s->scene, tracer, &s->options, &setup));
     memset(s->lattice.states, 0, s->texels.count);
     memset(s->lattice.values, 0, s->texels.count * sizeof *s->lattice.values);
+    alpi_scratch scratch;
     alpi_occlusion_task task = *options;
     task.setup = &setup;
     task.receivers = &s->receivers;
@@ -86,7 +87,10 @@ static alp_result run(painting *s, const alpi_occlusion_task *options,
     task.count = s->texels.count;
     task.lattice = &s->lattice;
     task.errors = s->errors;
+    task.scratch = &scratch;
+    ASSERT_OK(s->context, alpi_scratch_create(s->context, s->texels.count, false, &scratch));
     alp_result result = alpi_occlusion_rounds(&task, report);
+    alpi_scratch_destroy(&scratch);
     alpi_occlusion_release(&setup);
     return result;
 }

@@ -8,6 +8,8 @@
 #include "base/random.h"
 #include "maps/radiosity/patches.h"
 
+#include <string.h>
+
 /// An atlas of a scene and patches of it.
 typedef struct setting {
     alp_context *context;
@@ -18,12 +20,19 @@ typedef struct setting {
     alpi_patches patches;
 } setting;
 
+/// @param side of patches in texels: 1, 2 or 4
 /// @param each 1 or 0: all texels have light of their own; n: those not divisible by n
 static inline void open_on(setting *s, alp_scene *scene, const alp_atlas_options *options,
-                           uint32_t spacing, uint32_t each)
+                           uint32_t side, uint32_t each)
 {
     static uint32_t order[1u << 18];
+    static uint8_t proximity[1u << 18];
     uint32_t count = 0;
+    memset(proximity,
+           side == 1   ? ALPI_TOUCHING
+           : side == 2 ? ALPI_NEAR
+                       : ALPI_FAR,
+           sizeof proximity);
     *s = (setting){.context = scene->context, .scene = scene};
     ASSERT_OK(s->context, alp_atlas_create(scene, options, &s->atlas));
     ASSERT_OK(s->context, alpi_texels_create(s->atlas, &s->texels));
@@ -34,20 +43,20 @@ static inline void open_on(setting *s, alp_scene *scene, const alp_atlas_options
             order[count++] = s->lattice.order[i];
         }
     }
-    ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, order, count,
-                                              &(alpi_patch_rule){.spacing = spacing}, &s->patches));
+    ASSERT_OK(s->context,
+              alpi_patches_create(&s->lattice, s->atlas, order, count, proximity, &s->patches));
 }
 
 /// @param each 1: all texels have light of their own; n: those not divisible by n; 0: all, 5 to a
 /// metre
 static inline void open_setting(setting *s, alp_scene *scene, uint32_t size, float max_angle,
-                                uint32_t spacing, uint32_t each)
+                                uint32_t side, uint32_t each)
 {
     alp_atlas_options a = alp_atlas_options_default();
     a.size = size;
     a.texels_per_metre = each == 0 ? 5.0 : 0.0;
     a.max_angle = max_angle;
-    open_on(s, scene, &a, spacing, each);
+    open_on(s, scene, &a, side, each);
 }
 
 static inline void close_setting(setting *s)

@@ -69,7 +69,6 @@ static void map_by(setting *s, const map_options *o)
                                                .count = s->texels.count,
                                                .proximity = s->proximity,
                                                .adaptive = o->adaptive,
-                                               .straight = true,
                                                .independent = o->gatherer};
     alpi_final_gather_report report = {0};
     ASSERT_OK(s->context, alpi_final_gather(&options, &s->lattice, NULL, s->states, &report));
@@ -94,7 +93,7 @@ static bool has_stencil(setting *s, uint32_t texel)
     uint8_t known[SIZE * SIZE];
     memset(known, ALPI_TEXEL_TRACED, sizeof known);
     l.states = known;
-    l.along_borders = true;
+    l.straight = true;
     return alpi_lattice_stencil(&l, texel, &stencil);
 }
 

@@ -43,8 +43,8 @@ static void open_case(const cells_case *c, setting *s)
     open_on(s, test_mesh_scene(test_context(1), mesh, c->double_sided), &a, 4, c->each);
     if (c->each == 0) {
         alpi_patches_destroy(&s->patches);
-        ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, s->lattice.order, 0,
-                                                  &(alpi_patch_rule){.spacing = 4}, &s->patches));
+        ASSERT_OK(s->context, alpi_patches_create(&s->lattice, s->atlas, s->lattice.order, 0, NULL,
+                                                  &s->patches));
     }
 }
 

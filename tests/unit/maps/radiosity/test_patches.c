@@ -197,8 +197,7 @@ TEST(texels_without_light_have_stand_ins)
     close_setting(&s);
     open_setting(&s, make_ball(test_context(2), 4, 2), 32, 0.01f, 4, 1);
     alpi_patches none;
-    ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, 0,
-                                             &(alpi_patch_rule){.spacing = 4}, &none));
+    ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, 0, NULL, &none));
     for (uint32_t t = 0; t < s.scene->triangle_count; t++) {
         assert_int_equal(alpi_patches_find(&none, t, 0.3f, 0.3f), ALPI_NONE);
         assert_int_equal(find_cell(&none, t, 0.3f, 0.3f, false), ALPI_CELL_BLACK);
@@ -212,12 +211,12 @@ TEST(texels_without_light_have_stand_ins)
 /// Each texel is in one patch. A patch has one chart, one square of the page, and its area.
 TEST(blocks_hold_every_texel_once)
 {
-    static const uint32_t spacings[] = {1, 3, 4, 16};
-    for (int i = 0; i < 4; i++) {
+    static const uint32_t sides[] = {1, 2, 4};
+    for (int i = 0; i < 3; i++) {
         setting s;
         double area = 0.0;
         uint32_t members = 0;
-        open_setting(&s, make_ball(test_context(2), 24, 12), 97, 0.3f, spacings[i], 5);
+        open_setting(&s, make_ball(test_context(2), 24, 12), 97, 0.3f, sides[i], 5);
         const alpi_patches *p = &s.patches;
         for (uint32_t b = 0; b < p->patch_count; b++) {
             const uint32_t first = p->patch_texels[p->patch_first[b]];
@@ -229,8 +228,8 @@ TEST(blocks_hold_every_texel_once)
                 assert_true(t % 5 != 0);
                 assert_int_equal(s.texels.charts[t], s.texels.charts[first]);
                 for (int d = 0; d < 2; d++) {
-                    assert_int_equal(s.texels.pixels[t][d] / spacings[i],
-                                     s.texels.pixels[first][d] / spacings[i]);
+                    assert_int_equal(s.texels.pixels[t][d] / sides[i],
+                                     s.texels.pixels[first][d] / sides[i]);
                 }
                 assert_true(k == p->patch_first[b] || p->patch_ends[k] >= p->patch_ends[k - 1]);
                 sum += (double)s.texels.areas[t];
@@ -242,27 +241,25 @@ TEST(blocks_hold_every_texel_once)
         }
         assert_int_equal(members, s.texels.count - (s.texels.count + 4) / 5);
         assert_int_equal(p->patch_first[p->patch_count], members);
-        assert_true(spacings[i] > 1 || p->patch_count == members);
+        assert_true(sides[i] > 1 || p->patch_count == members);
         assert_true(area > 0.0);
         close_setting(&s);
     }
 }
 
 /// Side of the patches of a texel's square: 4, 2 or 1 texels.
-static uint32_t side_of(const setting *s, const alpi_patch_rule *rule, uint32_t texel)
+static uint32_t side_of(const setting *s, const uint8_t *proximity, uint32_t texel)
 {
     const uint16_t *p = s->texels.pixels[texel];
-    const uint32_t spacing = rule->spacing;
-    uint32_t side = spacing;
-    for (uint32_t i = 0; i < spacing * spacing; i++) {
+    uint32_t side = 4;
+    for (uint32_t i = 0; i < 16; i++) {
         const uint32_t t = alpi_lattice_texel(&s->lattice, s->texels.pages[texel],
-                                              p[0] / spacing * spacing + i % spacing,
-                                              p[1] / spacing * spacing + i / spacing);
-        const uint8_t near = t != ALPI_NONE ? rule->proximity[t] : ALPI_FAR;
+                                              p[0] / 4 * 4 + i % 4, p[1] / 4 * 4 + i / 4);
+        const uint8_t near = t != ALPI_NONE ? proximity[t] : ALPI_FAR;
         if ((t != ALPI_NONE && s->texels.valid[t] != 0) || near == ALPI_TOUCHING) {
             return 1;
         }
-        side = near != ALPI_FAR ? (spacing == 4 ? 2 : 1) : side;
+        side = near != ALPI_FAR ? 2 : side;
     }
     return side;
 }
@@ -271,48 +268,41 @@ static uint32_t side_of(const setting *s, const alpi_patch_rule *rule, uint32_t 
 /// of the texels, or one lies in a solid.
 TEST(blocks_are_small_near_surfaces)
 {
-    static const uint32_t spacings[] = {4, 3};
-    for (int i = 0; i < 2; i++) {
-        setting s;
-        alpi_patches patches;
-        const uint32_t spacing = spacings[i];
-        open_setting(&s, make_ball(test_context(2), 24, 12), 96, 0.3f, spacing, 1);
-        uint8_t *near = calloc(s.texels.count, 1);
-        uint16_t *valid = calloc(s.texels.count, sizeof *valid);
-        assert_true(near != NULL && valid != NULL);
-        for (uint32_t t = 0; t < s.texels.count; t++) {
-            near[t] = t % 97 == 0 ? ALPI_NEAR : t % 89 == 0 ? ALPI_TOUCHING : ALPI_FAR;
-            valid[t] = t % 113 == 0 ? 0xff : 0;
-        }
-        s.texels.valid = valid;
-        const alpi_patch_rule rule = {spacing, near};
-        ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order,
-                                                 s.texels.count, &rule, &patches));
-        uint32_t seen[5] = {0}, most[5] = {0};
-        for (uint32_t b = 0; b < patches.patch_count; b++) {
-            const uint32_t first = patches.patch_texels[patches.patch_first[b]];
-            const uint32_t side = side_of(&s, &rule, first);
-            const uint32_t members = patches.patch_first[b + 1] - patches.patch_first[b];
-            for (uint32_t k = patches.patch_first[b]; k < patches.patch_first[b + 1]; k++) {
-                const uint32_t t = patches.patch_texels[k];
-                for (int d = 0; d < 2; d++) {
-                    const uint32_t start = s.texels.pixels[first][d] / spacing * spacing;
-                    assert_int_equal((s.texels.pixels[t][d] - start) / side,
-                                     (s.texels.pixels[first][d] - start) / side);
-                }
-            }
-            seen[side]++;
-            most[side] = members > most[side] ? members : most[side];
-        }
-        assert_true(seen[1] > 0 && seen[spacing] > 0 && (spacing == 3 || seen[2] > 0));
-        assert_true(most[1] == 1 && most[spacing] == spacing * spacing);
-        assert_true(spacing == 3 || most[2] == 4);
-        alpi_patches_destroy(&patches);
-        s.texels.valid = NULL;
-        free(near);
-        free(valid);
-        close_setting(&s);
+    setting s;
+    alpi_patches patches;
+    open_setting(&s, make_ball(test_context(2), 24, 12), 96, 0.3f, 4, 1);
+    uint8_t *near = calloc(s.texels.count, 1);
+    uint16_t *valid = calloc(s.texels.count, sizeof *valid);
+    assert_true(near != NULL && valid != NULL);
+    for (uint32_t t = 0; t < s.texels.count; t++) {
+        near[t] = t % 97 == 0 ? ALPI_NEAR : t % 89 == 0 ? ALPI_TOUCHING : ALPI_FAR;
+        valid[t] = t % 113 == 0 ? 0xff : 0;
     }
+    s.texels.valid = valid;
+    ASSERT_OK(s.context, alpi_patches_create(&s.lattice, s.atlas, s.lattice.order, s.texels.count,
+                                             near, &patches));
+    uint32_t seen[5] = {0}, most[5] = {0};
+    for (uint32_t b = 0; b < patches.patch_count; b++) {
+        const uint32_t first = patches.patch_texels[patches.patch_first[b]];
+        const uint32_t side = side_of(&s, near, first);
+        const uint32_t members = patches.patch_first[b + 1] - patches.patch_first[b];
+        for (uint32_t k = patches.patch_first[b]; k < patches.patch_first[b + 1]; k++) {
+            const uint32_t t = patches.patch_texels[k];
+            for (int d = 0; d < 2; d++) {
+                assert_int_equal(s.texels.pixels[t][d] / side, s.texels.pixels[first][d] / side);
+            }
+        }
+        seen[side]++;
+        most[side] = members > most[side] ? members : most[side];
+    }
+    for (uint32_t side = 1; side <= 4; side *= 2) {
+        assert_true(seen[side] > 0 && most[side] == side * side);
+    }
+    alpi_patches_destroy(&patches);
+    s.texels.valid = NULL;
+    free(near);
+    free(valid);
+    close_setting(&s);
 }
 
 /// Points of a patch fall on its texels in proportion to their areas.

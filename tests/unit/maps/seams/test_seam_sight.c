@@ -107,7 +107,7 @@ static uint32_t expect_none_blocked(const char *name, uint32_t size)
 }
 
 /// Convex and concave seams, of triangles smaller and larger than a texel.
-TEST(curved_surfaces_do_not_block_their_own_seams)
+TEST_SLOW(curved_surfaces_do_not_block_their_own_seams)
 {
     const char *const names[] = {"builtin:sphere-plane", "builtin:bowl"};
     for (int i = 0; i < 2; i++) {

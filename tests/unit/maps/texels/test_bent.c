@@ -62,6 +62,8 @@ static void run(map_setup *s, uint32_t samples, uint64_t seed, float accuracy, f
     alpi_validity validity;
     ASSERT_OK(s->context, alpi_validity_create(&setup, &s->receivers, &s->texels, &s->lattice,
                                                s->lattice.order, s->texels.count, NULL, &validity));
+    alpi_scratch scratch;
+    ASSERT_OK(s->context, alpi_scratch_create(s->context, s->texels.count, true, &scratch));
     const alpi_occlusion_task task = {.setup = &setup,
                                       .receivers = &s->receivers,
                                       .order = s->lattice.order,
@@ -70,11 +72,13 @@ static void run(map_setup *s, uint32_t samples, uint64_t seed, float accuracy, f
                                       .lattice = &s->lattice,
                                       .errors = s->errors,
                                       .bent = s->bent,
+                                      .scratch = &scratch,
                                       .accuracy = accuracy,
                                       .error = error,
                                       .deadline = HUGE_VAL};
     alpi_occlusion_report report;
     ASSERT_OK(s->context, alpi_occlusion_rounds(&task, &report));
+    alpi_scratch_destroy(&scratch);
     alpi_validity_destroy(&validity);
     alpi_occlusion_release(&setup);
 }
@@ -153,7 +157,7 @@ TEST(cubic_weights_that_turn_a_direction_over_are_dropped)
     int tried = 0;
     for (uint32_t t = 0; t < s.texels.count; t++) {
         alpi_stencil stencil;
-        if (alpi_lattice_pass(s.texels.pixels[t]) != 1 ||
+        if (alpi_lattice_level(s.texels.pixels[t]) != 1 ||
             !alpi_lattice_stencil(&s.lattice, t, &stencil) || stencil.count != 4) {
             continue;
         }

@@ -5,6 +5,7 @@
 #include "test_scenes.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { SIZE = 32 };
@@ -48,21 +49,21 @@ TEST(every_texel_has_its_pass_and_its_turn)
 {
     // Of 8 × 8 texels four are the lattice; 8 and 4 belong to spacing 4; 16, 16 and 16 to
     // spacing 2.
-    static const uint32_t expected[ALPI_LATTICE_PASSES] = {4, 8, 4, 16, 16, 16};
-    uint32_t counts[ALPI_LATTICE_PASSES] = {0};
+    static const uint32_t expected[ALPI_LATTICE_LEVELS] = {4, 8, 4, 16, 16, 16};
+    uint32_t counts[ALPI_LATTICE_LEVELS] = {0};
     for (uint16_t y = 0; y < 8; y++) {
         for (uint16_t x = 0; x < 8; x++) {
-            counts[alpi_lattice_pass((uint16_t[]){x, y})]++;
+            counts[alpi_lattice_level((uint16_t[]){x, y})]++;
         }
     }
     assert_memory_equal(counts, expected, sizeof counts);
     static const struct {
         uint16_t pixel[2];
-        uint32_t pass;
+        uint32_t level;
     } texels[] = {{{24, 8}, 0}, {{20, 8}, 0}, {{8, 12}, 0}, {{12, 4}, 0}, {{6, 4}, 1},
                   {{6, 10}, 2}, {{7, 8}, 3},  {{7, 10}, 4}, {{7, 9}, 5}};
     for (size_t i = 0; i < sizeof texels / sizeof *texels; i++) {
-        assert_int_equal(alpi_lattice_pass(texels[i].pixel), texels[i].pass);
+        assert_int_equal(alpi_lattice_level(texels[i].pixel), texels[i].level);
     }
     assert_true(alpi_lattice_is_coarse((uint16_t[]){6, 10}));
     assert_false(alpi_lattice_is_coarse((uint16_t[]){7, 8}));
@@ -84,9 +85,9 @@ TEST(every_texel_has_its_pass_and_its_turn)
     tear_down(&s);
 }
 
-static bool is_between_two(uint32_t pass)
+static bool is_between_two(uint32_t level)
 {
-    return pass == 1 || pass == 3 || pass == 4;
+    return level == 1 || level == 3 || level == 4;
 }
 
 /// A polynomial of degree three in x plus one in y.
@@ -116,8 +117,8 @@ TEST(cubics_are_interpolated_exactly)
             weight += stencil.weights[k];
         }
         ASSERT_NEAR(weight, 1.0f, 1e-6);
-        const uint32_t pass = alpi_lattice_pass(s.texels.pixels[i]);
-        const uint32_t whole = is_between_two(pass) ? 4 : 8;
+        const uint32_t level = alpi_lattice_level(s.texels.pixels[i]);
+        const uint32_t whole = is_between_two(level) ? 4 : 8;
         if (stencil.count == whole) {
             ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), cubic(s.texels.pixels[i]), 2e-6);
             cubic_count++;
@@ -140,15 +141,15 @@ TEST(straight_stencils_take_two_and_know_their_bend)
         l->values[i] = 0.5f * bent * x * x;
         l->states[i] = ALPI_TEXEL_TRACED;
     }
-    for (uint32_t pass = 1; pass < ALPI_LATTICE_PASSES; pass++) {
-        const uint32_t h = alpi_lattice_reach(pass);
-        const bool beside = pass == 4; // rows of the lattice
-        const uint32_t x = 16 - h, y = beside ? 18 : is_between_two(pass) ? 16 : 16 - h;
+    for (uint32_t level = 1; level < ALPI_LATTICE_LEVELS; level++) {
+        const uint32_t h = alpi_lattice_reach(level);
+        const bool beside = level == 4; // rows of the lattice
+        const uint32_t x = 16 - h, y = beside ? 18 : is_between_two(level) ? 16 : 16 - h;
         const uint32_t texel = l->grid[y * SIZE + x];
-        assert_int_equal(alpi_lattice_pass(s.texels.pixels[texel]), pass);
+        assert_int_equal(alpi_lattice_level(s.texels.pixels[texel]), level);
         alpi_stencil stencil;
         assert_true(alpi_lattice_stencil(l, texel, &stencil));
-        const uint32_t axes = is_between_two(pass) ? 1 : 2;
+        const uint32_t axes = is_between_two(level) ? 1 : 2;
         assert_int_equal(stencil.count, 2 * axes);
         for (uint32_t k = 0; k < stencil.count; k++) {
             assert_true(stencil.weights[k] == 0.5f / (float)axes);
@@ -161,13 +162,6 @@ TEST(straight_stencils_take_two_and_know_their_bend)
     tear_down(&s);
 }
 
-static bool is_same(const alpi_stencil *a, const alpi_stencil *b)
-{
-    return a->count == b->count && a->bend == b->bend && a->spread == b->spread &&
-           memcmp(a->texels, b->texels, a->count * sizeof *a->texels) == 0 &&
-           memcmp(a->weights, b->weights, a->count * sizeof *a->weights) == 0;
-}
-
 /// A texel of the line that is the border, counted along it: of the last column, or the last row.
 static uint32_t at_border(const alpi_lattice *l, bool row, uint32_t border, uint32_t along)
 {
@@ -175,7 +169,7 @@ static uint32_t at_border(const alpi_lattice *l, bool row, uint32_t border, uint
 }
 
 /// Light that is a parabola along the border, and far from it beside it: of stencils that go along
-/// it, what they miss is known, and they take no others, all of coarser passes.
+/// it, what they miss is known, and they take no others, all of coarser levels.
 static void hold_border(lattice_setup *s, bool row, uint32_t border)
 {
     alpi_lattice *l = &s->lattice;
@@ -189,37 +183,36 @@ static void hold_border(lattice_setup *s, bool row, uint32_t border)
     }
     for (uint32_t along = 8; along < SIZE - 8; along++) {
         const uint32_t texel = at_border(l, row, border, along);
-        const uint32_t pass = alpi_lattice_pass(s->texels.pixels[texel]);
+        const uint32_t level = alpi_lattice_level(s->texels.pixels[texel]);
         alpi_stencil stencil;
-        l->along_borders = false;
+        l->straight = false;
         const bool inside = alpi_lattice_stencil(l, texel, &stencil);
-        l->along_borders = true;
+        l->straight = true;
         const bool found = alpi_lattice_stencil(l, texel, &stencil);
         // What is halfway has beyond the border nothing along it stands for, but of the last but
         // one.
-        const bool goes_along = pass == 2 || pass == 4 || pass == 5;
+        const bool goes_along = level == 2 || level == 4 || level == 5;
         assert_int_equal(found, inside || goes_along);
         if (!found || inside) {
             continue;
         }
         float weight = 0.0f;
-        const float h = pass == 5 ? 1.0f : 2.0f;
+        const float h = level == 5 ? 1.0f : 2.0f;
         const float missed = 0.5f * bent * h * h;
         if ((float)along + 3.0f * h >= SIZE) {
             continue; // no four in a row
         }
-        assert_int_equal(stencil.count, l->straight ? 2 : 4);
+        assert_int_equal(stencil.count, 2);
         for (uint32_t k = 0; k < stencil.count; k++) {
             const uint16_t *p = s->texels.pixels[stencil.texels[k]];
             assert_int_equal(p[across], border);
-            assert_true(alpi_lattice_pass(p) < pass);
+            assert_true(alpi_lattice_level(p) < level);
             weight += stencil.weights[k];
         }
         ASSERT_NEAR(weight, 1.0f, 1e-6);
         ASSERT_NEAR(stencil.bend, missed, 2e-6);
         ASSERT_NEAR(stencil.spread, bent * (float)along * 2.0f * h, 1e-5);
-        ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil),
-                    l->values[texel] + (l->straight ? missed : 0.0f), 2e-6);
+        ASSERT_NEAR(alpi_lattice_interpolate(l, &stencil), l->values[texel] + missed, 2e-6);
     }
 }
 
@@ -231,22 +224,20 @@ TEST(at_a_border_stencils_go_along_it)
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
-    for (int k = 0; k < 16; k++) {
-        l->straight = k / 8 != 0;
-        hold_border(&s, k % 2 != 0, borders[k / 2 % 4]);
+    for (int k = 0; k < 8; k++) {
+        hold_border(&s, k % 2 != 0, borders[k / 2]);
     }
-    // Inside a chart nothing changes.
+    // Inside a chart the same texels have stencils.
     for (uint32_t i = 0; i < s.texels.count; i++) {
         l->states[i] = ALPI_TEXEL_TRACED;
     }
     for (uint32_t i = 0; i < 64; i++) {
-        alpi_stencil with, without;
+        alpi_stencil stencil;
         const uint32_t texel = l->grid[(8 + i / 8) * SIZE + 8 + i % 8];
-        l->along_borders = true;
-        const bool found = alpi_lattice_stencil(l, texel, &with);
-        l->along_borders = false;
-        assert_int_equal(found, alpi_lattice_stencil(l, texel, &without));
-        assert_true(!found || is_same(&with, &without));
+        l->straight = true;
+        const bool found = alpi_lattice_stencil(l, texel, &stencil);
+        l->straight = false;
+        assert_int_equal(found, alpi_lattice_stencil(l, texel, &stencil));
     }
     tear_down(&s);
 }
@@ -257,15 +248,15 @@ TEST(near_surfaces_the_judge_is_stricter)
     lattice_setup s;
     set_up(&s);
     alpi_lattice *l = &s.lattice;
-    const uint32_t middle = l->grid[16 * SIZE + 18]; // of pass 1, between x = 16 and 20
-    uint8_t near[2 * SIZE * SIZE] = {0}, wanted[2 * SIZE * SIZE] = {0};
+    const uint32_t middle = l->grid[16 * SIZE + 18]; // of level 1, between x = 16 and 20
+    uint8_t near[2 * SIZE * SIZE] = {0}, marked[2 * SIZE * SIZE] = {0};
     for (uint32_t i = 0; i < s.texels.count; i++) {
         const float x = (float)s.texels.pixels[i][0];
         const bool bent = x == 12.0f || x == 24.0f;
         l->values[i] = x + (bent ? 4.0f : 0.0f); // spread 4, bend a half
     }
     alpi_lattice_judge judge = {
-        .lattice = l, .order = &middle, .proximity = near, .wanted = wanted, .pass = 1};
+        .lattice = l, .order = &middle, .proximity = near, .marked = marked, .level = 1};
     static const struct {
         float spread, bend, near_spread, near_bend;
         bool far_is_smooth, near_is_smooth;
@@ -276,7 +267,7 @@ TEST(near_surfaces_the_judge_is_stricter)
     for (size_t i = 0; i < 2 * (sizeof cases / sizeof *cases); i++) {
         memset(l->states, ALPI_TEXEL_TRACED, s.texels.count);
         l->states[middle] = ALPI_TEXEL_OPEN;
-        wanted[middle] = 0;
+        marked[middle] = 0;
         near[middle] = i % 2 == 0 ? ALPI_FAR : ALPI_NEAR;
         judge.spread = cases[i / 2].spread;
         judge.bend = cases[i / 2].bend;
@@ -284,7 +275,7 @@ TEST(near_surfaces_the_judge_is_stricter)
         judge.near_bend = cases[i / 2].near_bend;
         alpi_lattice_judge_range(&judge, 0, 1);
         const bool smooth = i % 2 == 0 ? cases[i / 2].far_is_smooth : cases[i / 2].near_is_smooth;
-        assert_int_equal(wanted[middle], !smooth);
+        assert_int_equal(marked[middle], !smooth);
         assert_int_equal(l->states[middle], smooth ? ALPI_TEXEL_INTERPOLATED : ALPI_TEXEL_OPEN);
     }
     tear_down(&s);
@@ -344,27 +335,68 @@ TEST(kinks_are_found_beside_traced_texels_only)
     tear_down(&s);
 }
 
-/// By passes: each in its own, in the order's turn, over several ranges.
-TEST(passes_take_all_texels_in_their_order)
+typedef struct turns {
+    const alpi_lattice *lattice;
+    uint8_t counts[2 * SIZE * SIZE], early[2 * SIZE * SIZE]; // by texel
+} turns;
+
+static void take_turn(void *user, uint32_t texel, const alpi_stencil *stencil)
 {
-    enum { COUNT = 3 * 4096 + 5 };
-    static uint32_t order[COUNT], by_pass[COUNT];
+    turns *t = user;
+    t->counts[texel]++;
+    for (uint32_t k = 0; k < stencil->count; k++) {
+        const uint32_t n = stencil->texels[k];
+        const bool traced = t->lattice->states[n] == ALPI_TEXEL_TRACED;
+        t->early[texel] |= !traced && t->counts[n] == 0 ? 1 : 0;
+    }
+}
+
+/// Each interpolated texel has one turn, after the texels of its stencil.
+TEST(stencils_take_their_turn_level_by_level)
+{
+    static turns t;
     lattice_setup s;
     set_up(&s);
-    for (uint32_t i = 0; i < COUNT; i++) {
-        order[i] = (COUNT - i) * 7 % (2 * SIZE * SIZE);
-    }
-    uint32_t first[ALPI_LATTICE_PASSES + 1], at = 0;
-    ASSERT_OK(s.context, alpi_lattice_split(&s.lattice, order, COUNT, by_pass, first));
-    for (uint32_t pass = 0; pass < ALPI_LATTICE_PASSES; pass++) {
-        assert_int_equal(first[pass], at);
-        for (uint32_t i = 0; i < COUNT; i++) {
-            if (alpi_lattice_pass(s.texels.pixels[order[i]]) == pass) {
-                assert_int_equal(by_pass[at++], order[i]);
-            }
+    uint32_t interpolated = 0;
+    t = (turns){.lattice = &s.lattice};
+    memset(s.lattice.states, ALPI_TEXEL_TRACED, s.texels.count);
+    for (uint32_t i = 0; i < s.texels.count; i++) {
+        alpi_stencil stencil;
+        if (i % 7 != 0 && alpi_lattice_stencil(&s.lattice, i, &stencil)) {
+            s.lattice.states[i] = ALPI_TEXEL_INTERPOLATED;
+            interpolated++;
         }
     }
-    assert_int_equal(first[ALPI_LATTICE_PASSES], COUNT);
+    assert_true(interpolated > SIZE * SIZE);
+    ASSERT_OK(s.context, alpi_lattice_for_stencils(&s.lattice, s.lattice.order, s.texels.count,
+                                                   take_turn, &t, NULL));
+    for (uint32_t i = 0; i < s.texels.count; i++) {
+        assert_int_equal(t.counts[i], s.lattice.states[i] == ALPI_TEXEL_INTERPOLATED);
+        assert_int_equal(t.early[i], 0);
+    }
+    tear_down(&s);
+}
+
+/// At corners, edges and inside: as many texels as the page has there, the middle among them.
+TEST(around_a_texel_lie_up_to_nine)
+{
+    lattice_setup s;
+    set_up(&s);
+    static const struct {
+        uint32_t x, y, count, itself;
+    } cases[] = {{0, 0, 4, 0}, {5, 0, 6, 1}, {0, 5, 6, 2}, {5, 5, 9, 4}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        uint32_t around[ALPI_AROUND_LIMIT];
+        const uint32_t texel = s.lattice.grid[cases[i].y * SIZE + cases[i].x];
+        assert_int_equal(alpi_lattice_around(&s.lattice, texel, around), cases[i].count);
+        assert_int_equal(around[cases[i].itself], texel);
+        for (uint32_t k = 0; k < cases[i].count; k++) {
+            const uint16_t *p = s.texels.pixels[around[k]];
+            assert_true(abs((int)p[0] - (int)cases[i].x) <= 1 &&
+                        abs((int)p[1] - (int)cases[i].y) <= 1);
+            assert_true(k == 0 || around[k] > around[k - 1]);
+        }
+    }
     tear_down(&s);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Percentiles of values at texels, against a sort.
 #include "base/context.h"
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 #include "test_support.h"
 
 #include <stdlib.h>

@@ -135,10 +135,11 @@ static void assert_same(json_t *a, json_t *b)
     assert_true(json_equal(json_object_get(a, "meshes"), json_object_get(b, "meshes")));
 }
 
-/// What the artist made stands where it stood.
+/// What the artist made stands where it stood; accessors and views are split, and those of before
+/// go.
 static void assert_artists(json_t *before, json_t *after)
 {
-    for (size_t k = 0; k < 4; k++) {
+    for (size_t k = 2; k < 4; k++) {
         json_t *list = json_object_get(before, kinds[k]);
         for (size_t i = 0; i < json_array_size(list); i++) {
             json_t *now = json_array_get(json_object_get(after, kinds[k]), i);
@@ -342,8 +343,9 @@ TEST_WITH_CONTEXT(copies_of_materials, 1)
     alpi_release(context, path);
 }
 
-/// Of a file that bears no marks nothing goes; the fifth set is one that few read, which is told.
-TEST_WITH_CONTEXT(without_marks_all_stays, 1)
+/// A set without a mark stays, and its map goes once nothing reads it; the fifth set is one that
+/// few read, which is told.
+TEST_WITH_CONTEXT(without_marks_sets_stay, 1)
 {
     static const form f = {1, 1, true, false, false, false};
     const char *first = quad_write_gltf(ASSET, rest);
@@ -354,7 +356,7 @@ TEST_WITH_CONTEXT(without_marks_all_stays, 1)
         bake(context, round == 0 ? first : path, path, &f);
         quad_unmark(path);
         json_t *now = read(context, path, &data);
-        assert_int_equal(json_array_size(json_object_get(now, "images")), 2 + round);
+        assert_int_equal(json_array_size(json_object_get(now, "images")), 2);
         assert_int_equal((int)number_at(now, "materials", 0, "occlusionTexture", "texCoord"),
                          1 + round);
         assert_int_equal(test_log_has("uv-sets"), round == 3);

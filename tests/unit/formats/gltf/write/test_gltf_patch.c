@@ -333,7 +333,7 @@ TEST(existing_maps_are_replaced_or_kept)
     quad_bake bake = quad_open(quad_write_glb(ASSET, rest), 1);
     quad_write(&bake, ".glb");
     assert_string_equal(quad_text(&bake, "materials/0"),
-                        "{\"occlusionTexture\":{\"index\":1},\"name\":\"m\"}");
+                        "{\"occlusionTexture\":{\"index\":0},\"name\":\"m\"}");
     quad_close(&bake);
     bake = quad_open(quad_write_glb(ASSET, rest), 1);
     bake.patch.existing_ao = ALPI_EXISTING_AO_KEEP;

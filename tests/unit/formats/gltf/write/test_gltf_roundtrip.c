@@ -204,9 +204,10 @@ static void require_old_bytes(const alp_scene *a, const alp_scene *b, const vari
     if (v->to_other) {
         return;
     }
-    assert_text_kept(old->text, old->text_size, new->text, new->text_size, patch_may_change);
-    assert_true(new->buffer_count >= old->buffer_count);
-    for (size_t i = 0; i < old->buffer_count; i++) {
+    const size_t gone =
+        assert_text_kept(old->text, old->text_size, new->text, new->text_size, patch_may_change);
+    for (size_t i = 0; gone == 0 && i < old->buffer_count; i++) { // else bytes may go too
+        assert_true(i < new->buffer_count);
         assert_true(new->buffers[i].size >= old->buffers[i].size);
         assert_memory_equal(old->buffers[i].bytes, new->buffers[i].bytes, old->buffers[i].size);
     }
@@ -266,7 +267,7 @@ static void run_all(const variant *v, size_t which)
     }
 }
 
-TEST(one_page)
+TEST_SLOW(one_page)
 {
     run_all(&(variant){.pages = 1, .chart = 50}, 0);
 }

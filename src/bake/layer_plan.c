@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The plan of layers: which lights each has, its name, and its pages.
-#include "bake/layers.h"
+#include "bake/layer_plan.h"
 
 #include "base/memory.h"
 #include "transport/direct/direct.h"

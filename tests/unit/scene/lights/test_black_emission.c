@@ -5,7 +5,7 @@
 #include "base/image.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "scene/lights/lighting_dark.h"
+#include "scene/lights/black_emission.h"
 #include "scene/lights/lighting_emitters.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The plan of layers, and their pages. light/light_layers.c gathers their light.
-#ifndef ALPI_BAKE_LAYERS_H
-#define ALPI_BAKE_LAYERS_H
+#ifndef ALPI_BAKE_LAYER_PLAN_H
+#define ALPI_BAKE_LAYER_PLAN_H
 
 #include "bake/job.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "maps/texels/stated_error.h"
+#include "maps/texels/relative_error.h"
 
 #include "base/memory.h"
 #include "base/tasks.h"
@@ -11,7 +11,7 @@ enum { TEXELS_PER_TICK = 1 << 16 };
 
 // --- percentiles ---------------------------------------------------------------------------------
 
-/// Bits of a float ≥ 0: ordered as the floats are.
+/// Bits of a float ≥ 0, which have the order of the floats.
 static uint32_t ordered_bits(float value)
 {
     uint32_t bits;
@@ -19,7 +19,7 @@ static uint32_t ordered_bits(float value)
     return bits;
 }
 
-/// Where in a histogram the item of rank `*rank` lies; *rank becomes its rank in there.
+/// The bucket of a histogram that holds the item of a rank. @param rank out: its rank in the bucket
 static uint32_t find_bucket(const uint32_t *histogram, uint64_t *rank)
 {
     uint32_t bucket = 0;
@@ -29,8 +29,8 @@ static uint32_t find_bucket(const uint32_t *histogram, uint64_t *rank)
     return bucket;
 }
 
-/// Counts the upper halves of the bits, or, with upper ≤ UINT16_MAX, the lower ones of those that
-/// have that upper half.
+/// Counts the upper halves of the bits; with upper ≤ UINT16_MAX, the lower halves of the items that
+/// have this upper half.
 static alp_result count_halves(alp_context *context, const float *values, const uint32_t *order,
                                uint32_t order_count, uint32_t upper, uint32_t *histogram)
 {
@@ -94,7 +94,7 @@ static void sum_known(const void *user, uint32_t begin, uint32_t end, double sum
         const uint32_t t = job->order[i];
         if (job->lattice->states[t] != ALPI_TEXEL_OPEN) {
             sums[0] += 1.0;
-            sums[1] += fmin(fmax((double)job->lattice->values[t], 0.0), 1.0); // what it will be
+            sums[1] += fmin(fmax((double)job->lattice->values[t], 0.0), 1.0);
             sums[2] += (double)job->errors[t] * (double)job->errors[t];
         }
     }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The error of a map in two numbers, from the standard errors of its texels.
-#ifndef ALPI_MAPS_STATED_ERROR_H
-#define ALPI_MAPS_STATED_ERROR_H
+#ifndef ALPI_MAPS_RELATIVE_ERROR_H
+#define ALPI_MAPS_RELATIVE_ERROR_H
 
 #include "base/tasks.h"
 #include "maps/texels/lattice.h"
 
-/// The 99th percentile of the texels' errors may be so many times the wanted error.
+/// The limit of the 99th percentile of the texels' errors, over the wanted error.
 #define ALPI_P99_LIMIT 4.0
 
-/// Error of the texels that have a value, over the mean of their values, each texel counting alike;
-/// 0 without any.
+/// Error of the texels that have a value, over the mean of their values; 0 without any. Each texel
+/// counts alike.
 typedef struct alpi_relative_error {
     double rms; // root mean square of the standard errors
     double p99; // their 99th percentile

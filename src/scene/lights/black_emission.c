@@ -2,7 +2,7 @@
 // Emission textures are mostly black: a whole model wears one for its two head lights. Triangles
 // over black are no lights, which a few looks cannot tell but counts of bright texels can.
 // Based on: Franklin C. Crow. Summed-Area Tables for Texture Mapping. SIGGRAPH 1984.
-#include "scene/lights/lighting_dark.h"
+#include "scene/lights/black_emission.h"
 
 #include "base/memory.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which triangles of emissive materials show only black of their texture.
-#ifndef ALPI_SCENE_LIGHTING_DARK_H
-#define ALPI_SCENE_LIGHTING_DARK_H
+#ifndef ALPI_SCENE_BLACK_EMISSION_H
+#define ALPI_SCENE_BLACK_EMISSION_H
 
 #include "scene/scene.h"
 
