@@ -45,7 +45,7 @@ SUB_ROOMS = {
         "images": [],
         "gltf": ["images", "files", "text"],
         "gltf/write": ["gltf", "images", "files", "text"],
-        "collada": ["images", "files", "polygon"],
+        "collada": ["images", "files", "polygon", "text"],
         "collada/write": ["collada", "files", "text"],
         "obj": ["images", "files", "polygon", "text"],
         "viewers": ["images", "files", "text"],

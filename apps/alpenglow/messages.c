@@ -69,11 +69,11 @@ static int find_like(const message_log *m, const alp_log_message *logged)
 /// @return whether it is to be printed now
 static bool keep(message_log *m, const alp_log_message *logged)
 {
+    const int like = m->held ? MESSAGE_PRINTED : find_like(m, logged);
     if (m->warning_count == m->capacity) {
         m->capacity = m->capacity == 0 ? 16 : m->capacity * 2;
         m->warnings = allocate_or_exit(m->warnings, m->capacity * sizeof *m->warnings);
     }
-    const int like = m->held ? MESSAGE_PRINTED : find_like(m, logged);
     m->warnings[m->warning_count++] = (message){copy_text(logged->code), copy_text(logged->object),
                                                 copy_text(logged->text), like};
     return like == MESSAGE_PRINTED;

@@ -4,7 +4,7 @@
 // want of memory and warns as reading the file does. A const scene that decoded at the first use
 // could do neither, and threads that read it would race.
 #include "base/memory.h"
-#include "formats/gltf/gltf_read.h"
+#include "scene/scene.h"
 
 #include <alpenglow/geometry.h>
 
@@ -30,16 +30,6 @@ static void mark_normal_maps(const alp_scene *scene, bool *used, bool *needed)
     }
 }
 
-/// By the file that the scene was read from.
-static alp_result read_image(const alp_scene *scene, uint32_t index, alp_image **image)
-{
-    const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
-    *image = NULL;
-    return document != NULL            ? alpi_gltf_read_image(document, index, image)
-           : scene->read_image != NULL ? scene->read_image(scene, index, image)
-                                       : ALP_OK;
-}
-
 static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)
 {
     bool *used = ALPI_NEW(scene->context, bool, scene->material_count);
@@ -50,7 +40,7 @@ static alp_result decode_normal_maps(const alp_scene *scene, alp_image **maps)
     }
     for (uint32_t i = 0; result == ALP_OK && i < scene->image_count; i++) {
         if (needed[i] && scene->images[i] == NULL) {
-            result = read_image(scene, i, &maps[i]);
+            result = alpi_scene_open_image(scene, i, &maps[i]);
         }
     }
     alpi_release(scene->context, used);

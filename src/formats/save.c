@@ -5,13 +5,15 @@
 alp_result alpi_scene_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                   const char *path, alpi_file_set *files)
 {
-    if (!alpi_path_has_ending(path, ".dae")) {
-        alpi_collada_tell_losses(scene);
+    if (alpi_path_has_ending(path, ".dae")) {
+        return alpi_collada_add_patched(scene, patch, path, files);
     }
-    return alpi_path_has_ending(path, ".obj") ? alpi_obj_add_patched(scene, patch, path, files)
-           : alpi_path_has_ending(path, ".dae")
-               ? alpi_collada_add_patched(scene, patch, path, files)
-               : alpi_gltf_add_patched(scene, patch, path, files);
+    alpi_collada_tell_losses(scene);
+    if (alpi_path_has_ending(path, ".obj")) {
+        return alpi_obj_add_patched(scene, patch, path, files);
+    }
+    alpi_obj_note_losses(scene);
+    return alpi_gltf_add_patched(scene, patch, path, files);
 }
 
 alp_result alpi_scene_write_patched(const alp_scene *scene, const alpi_mesh_patch *patch,

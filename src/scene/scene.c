@@ -87,6 +87,17 @@ static alp_result share_list(alp_context *context, alp_image *const *from, uint3
     return ALP_OK;
 }
 
+alp_result alpi_scene_open_image(const alp_scene *scene, uint32_t index, alp_image **image)
+{
+    alp_image *there = scene->images[index];
+    if (there == NULL && scene->normal_maps != NULL) {
+        there = scene->normal_maps[index];
+    }
+    *image = alpi_image_share(there);
+    return there != NULL || scene->read_image == NULL ? ALP_OK
+                                                      : scene->read_image(scene, index, image);
+}
+
 alp_result alpi_scene_share_images(const alp_scene *from, alp_scene *to)
 {
     to->image_count = from->image_count;

@@ -33,6 +33,18 @@ typedef enum alpi_alpha_mode {
     ALPI_ALPHA_BLEND
 } alpi_alpha_mode;
 
+/// Gloss and relief. Light does not read them: they are carried from format to format.
+typedef struct alpi_shine {
+    float roughness;                // [0, 1], of glTF
+    alpi_texture roughness_texture; // channel G, linear
+    float index;                    // of refraction; 0 = not stated
+    bool has_specular;              // the file states the next two
+    float specular[3];              // linear
+    alpi_texture specular_texture;  // sRGB
+    alpi_texture bump_texture;      // heights, or normals of which the file does not say that
+    float bump_scale;
+} alpi_shine;
+
 typedef struct alpi_material {
     char *name;                      // "" where the file has none
     float base_color[4];             // linear, [0, 1]
@@ -51,9 +63,7 @@ typedef struct alpi_material {
     alpi_texture transmission_texture; // channel R, linear
     alpi_texture normal_texture;       // tangent space, linear; bakes do not read it
     float normal_scale;                // of its x and y
-    // Gloss as Phong's and Blinn's models have it; bakes do not read it.
-    float specular[3];
-    float shininess; // exponent, below 0 where the file states none
+    alpi_shine shine;
 } alpi_material;
 
 typedef struct alpi_surface {
@@ -100,7 +110,7 @@ typedef struct alpi_attachment {
 typedef enum alpi_attachment_kind {
     ALPI_ATTACHMENT_DOCUMENT,   // the file as read (formats)
     ALPI_ATTACHMENT_COLLADA,    // the same of a COLLADA file (formats)
-    ALPI_ATTACHMENT_PICTURES,   // paths of the images of an OBJ (formats)
+    ALPI_ATTACHMENT_OBJ,        // an OBJ with its libraries (formats)
     ALPI_ATTACHMENT_TRACER,     // acceleration structure, made at its first use (trace)
     ALPI_ATTACHMENT_LIGHT_MAPS, // alpi_light_maps, where they were read (formats)
     ALPI_ATTACHMENT_COUNT
@@ -144,24 +154,25 @@ struct alp_scene {
     alp_image **images; // NULL where none of our uses needs it or decoding failed (with a warning)
     alp_image **normal_maps; // [image_count] images that only alp_scene_get_image gives, apart so
                              // that writers do not copy them; NULL before they are loaded
-    /// Decodes an image by the file that the scene was read from, for the caller to destroy; NULL
-    /// in *image, with a warning, where it cannot be. NULL: no reader set it.
-    alp_result (*read_image)(const alp_scene *scene, uint32_t index, alp_image **image);
     uint32_t light_count;
     alpi_light *lights;
     uint32_t camera_count;
     alp_camera *cameras;
     uint32_t animation_count;
+    uint32_t light_map_count; // materials that name a map of light for viewers
     alpi_animation *animations;
 
     vec3 bounds_min, bounds_max; // over usable triangles
     double area;
 
-    double unit_metres;       // of one unit of the file, by which its lengths were multiplied
-    bool unit_assumed;        // the file does not say it: metres were taken
-    bool metals_black;        // ALP_METALS_BLACK
-    uint32_t light_map_count; // materials that name a map of light for viewers
-    char up_axis;             // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
+    double unit_metres; // of one unit of the file, by which its lengths were multiplied
+    bool unit_assumed;  // the file does not say it: metres were taken
+    bool metals_black;  // ALP_METALS_BLACK
+    char up_axis;       // 'X', 'Y' or 'Z' as the file states it (it was turned to y), else 0
+
+    /// Decodes an image of the file that light does not need, for alpi_scene_open_image; NULL with
+    /// a warning where it cannot be read. NULL: the file is not known.
+    alp_result (*read_image)(const alp_scene *scene, uint32_t index, alp_image **image);
 
     uint64_t input_hash;          // of the source bytes (FNV-1a 64), or of the arrays
     alpi_attachment *attachments; // [ALPI_ATTACHMENT_COUNT]; filled in later even in a const scene
@@ -184,6 +195,11 @@ alp_result alpi_scene_finish(alp_scene *scene);
 
 /// The same without warnings that a scene with the same materials and places gave before.
 alp_result alpi_scene_finish_quietly(alp_scene *scene);
+
+/// An image of a scene, decoded now where it was not: one more owner of it, who destroys it. NULL
+/// for one that cannot be read, with a warning, and where the scene's file is not known.
+/// @return ALP_OK; OUT_OF_MEMORY
+alp_result alpi_scene_open_image(const alp_scene *scene, uint32_t index, alp_image **image);
 
 /// Shares the images and normal maps of a scene with one that has none.
 /// @return ALP_OK; OUT_OF_MEMORY

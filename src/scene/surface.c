@@ -29,7 +29,12 @@ alpi_material alpi_material_default(void)
                            .transmission_texture = alpi_texture_none(),
                            .normal_texture = alpi_texture_none(),
                            .normal_scale = 1.0f,
-                           .shininess = -1.0f};
+                           .shine = {.roughness = 1.0f,
+                                     .roughness_texture = alpi_texture_none(),
+                                     .specular = {1.0f, 1.0f, 1.0f},
+                                     .specular_texture = alpi_texture_none(),
+                                     .bump_texture = alpi_texture_none(),
+                                     .bump_scale = 1.0f}};
 }
 
 vec2 alpi_texture_transform(const alpi_texture *texture, vec2 uv)
@@ -185,12 +190,30 @@ static float clamp_between(float value, float low, float high)
     return fminf(fmaxf(value, low), high);
 }
 
+/// The colour of a surface without a material: grey, or that of its vertices where they are not all
+/// white, as those of surfaces without colours are.
+static vec3 bare_color_at(const alp_scene *scene, uint32_t triangle, float b1, float b2)
+{
+    bool white = true;
+    for (int k = 0; scene->colors != NULL && k < 3; k++) {
+        const float *color = scene->colors[scene->triangles[triangle][k]];
+        white = white && color[0] == 1.0f && color[1] == 1.0f && color[2] == 1.0f;
+    }
+    if (white) {
+        return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
+    }
+    float rgba[4];
+    read_vertex_color(scene, triangle, b1, b2, rgba);
+    return (vec3){fminf(rgba[0], ALBEDO_LIMIT), fminf(rgba[1], ALBEDO_LIMIT),
+                  fminf(rgba[2], ALBEDO_LIMIT)};
+}
+
 /// The base colour, or that of a surface without a material, × a share.
 static vec3 find_albedo(const alp_scene *scene, uint32_t triangle, float b1, float b2, float share)
 {
     const alpi_material *material = material_of(scene, triangle);
     if (material == NULL) {
-        return (vec3){ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL, ALBEDO_WITHOUT_MATERIAL};
+        return bare_color_at(scene, triangle, b1, b2);
     }
     const vec3 color = base_color_at(scene, material, (alpi_surface_place){triangle, b1, b2});
     return (vec3){clamp_between(color.x * share, 0.0f, ALBEDO_LIMIT),

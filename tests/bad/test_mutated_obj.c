@@ -21,6 +21,7 @@ static const char asset[] =
     "l 1 2\np 3\nusemtl none\nf 6 5 4\n";
 static const char library[] =
     "newmtl red\nKd 1 0.5 .25\nKe 2 2 2\nd 0.5\nmap_Kd -s 2 2 1 -o 0.5 0 -clamp on a.png\n"
+    "Ks 1 1 1\nNs 9\nPr .5\nPm 1\nmap_Pr a.png -bm 2\nnorm C:\\x\\A.PNG\nmap_d %61.png\n"
     "newmtl two words\nKd 0.5\nTr 0.25\nmap_Ke -mm 0 1 sub\\b.png\nmap_d a.png\n"
     "alpenglow_occlusion map_Ka\nmap_Ka a.png\n";
 

@@ -208,13 +208,13 @@ typedef struct option {
     option_kind kind;
     unsigned common;           // commands whose --help begins with it; --help all has the others
     bool repeats;              // may be given several times (KIND_TEXT): command_line.repeated
+    bool sides;                // KIND_WHOLE: a side of a square, also 1k or 1024x1024
     const char *name;          // "--size"
     const char *alias;         // a second spelling, or NULL
     const char *value;         // name of its value, NULL for a flag
     const char *choices;       // "auto|keep|charts", or NULL
     const char *later_choices; // choices of the contract that are not built yet, or NULL
     const char *synonyms;      // "lightmap=light|...": other words for choices, or NULL
-    bool sides;                // KIND_WHOLE: a side of a square, also 1k or 1024x1024
     double minimum, maximum;
     const char *unit;    // "metres", or NULL
     const char *initial; // the default, parsed like a given value; or NULL

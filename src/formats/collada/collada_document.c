@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/collada/collada_ids.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf16.h"
 
 #include <stdio.h>
 #include <string.h>

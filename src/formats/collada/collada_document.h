@@ -99,11 +99,6 @@ alp_result alpi_collada_find_text(alpi_collada_document *document);
 /// Checks the encoding that the text states, and mends bytes of Latin-1 in UTF-8.
 /// @return ALP_OK; UNSUPPORTED (an encoding that is not read); OUT_OF_MEMORY
 alp_result alpi_collada_check_encoding(alpi_collada_document *document);
-/// UTF-16 → UTF-8 and back. *out is released by the caller.
-alp_result alpi_utf16_decode(alp_context *context, const uint8_t *bytes, size_t size, bool big,
-                             uint8_t **out, size_t *out_size);
-alp_result alpi_utf16_encode(alp_context *context, const char *text, size_t size, bool big,
-                             uint8_t **out, size_t *out_size);
 
 // --- collada_parse.c -----------------------------------------------------------------------------
 

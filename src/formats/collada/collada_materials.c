@@ -72,6 +72,22 @@ static void set_alpha(alpi_collada_reader *reader, const alpi_collada_effect *ef
     material->alpha_mode = same || alpha < 1.0 ? ALPI_ALPHA_BLEND : ALPI_ALPHA_OPAQUE;
 }
 
+/// Gloss of effects that state an exponent n of Phong or Blinn: √(2 / (n + 2)) is the square of
+/// roughness (B. Walter, S. Marschner, H. Li and K. Torrance. Microfacet Models for Refraction
+/// through Rough Surfaces, EGSR 2007). Without specular colour an exponent means nothing.
+static void set_shine(const alpi_collada_effect *effect, alpi_shine *shine)
+{
+    const float *c = effect->specular;
+    if (effect->shininess < 0.0f) {
+        return;
+    }
+    shine->has_specular = true;
+    memcpy(shine->specular, c, sizeof shine->specular);
+    if (c[0] + c[1] + c[2] > 0.0f) {
+        shine->roughness = powf(2.0f / (effect->shininess + 2.0f), 0.25f);
+    }
+}
+
 static void fill_material(alpi_collada_reader *reader, const alpi_collada_effect *effect,
                           const uint32_t sets[ALPI_COLLADA_SLOT_COUNT], alpi_material *material)
 {
@@ -89,8 +105,7 @@ static void fill_material(alpi_collada_reader *reader, const alpi_collada_effect
     if (effect->baked) {
         use_texture(reader, &effect->ambient, sets[3], &material->occlusion_texture);
     }
-    memcpy(material->specular, effect->specular, sizeof material->specular);
-    material->shininess = effect->shininess;
+    set_shine(effect, &material->shine);
     set_texture(&effect->normal, sets[4],
                 &material->normal_texture); // decoded when it is asked for
 }

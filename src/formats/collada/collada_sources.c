@@ -66,8 +66,8 @@ static void limit_count(alpi_collada_source *source, size_t value_count)
 }
 
 /// A <float_array>, read at its first use: many sources may name one.
-static alp_result read_array(alpi_collada_reader *reader, xmlNode *element,
-                             const alpi_collada_array **array)
+/// @param array out: its place in the reader's list
+static alp_result read_array(alpi_collada_reader *reader, xmlNode *element, uint32_t *array)
 {
     uint32_t *slot = &reader->slots[alpi_xml_index(element)];
     if (*slot == ALPI_NONE) { // a long one is not read again for each source
@@ -83,7 +83,7 @@ static alp_result read_array(alpi_collada_reader *reader, xmlNode *element,
         ALP_TRY(alpi_collada_floats(reader->document, element, &made->values, &made->count));
         *slot = reader->array_count;
     }
-    *array = &reader->arrays[*slot - 1];
+    *array = *slot - 1;
     return ALP_OK;
 }
 
@@ -114,10 +114,11 @@ alp_result alpi_collada_read_source(alpi_collada_reader *reader, xmlNode *elemen
     if (array == NULL) {
         return alpi_collada_fail(reader->document, element, "has no <float_array>");
     }
-    const alpi_collada_array *values = NULL;
-    ALP_TRY(read_array(reader, array, &values));
+    uint32_t place = 0;
+    ALP_TRY(read_array(reader, array, &place));
+    const alpi_collada_array *values = &reader->arrays[place];
     *index = reader->source_count++;
-    source->array = (uint32_t)(values - reader->arrays);
+    source->array = place;
     source->values = values->values; // stays where it is when the list of arrays grows
     const uint32_t stated = source->count;
     limit_count(source, values->count);

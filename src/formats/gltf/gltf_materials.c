@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/gltf/gltf_tree.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -132,7 +133,35 @@ static alp_result read_metallic_roughness(const source *from, alpi_material *mat
     ALP_TRY(
         alpi_gltf_number(from->reader->document, object, "metallicFactor", from->owner, &metallic));
     material->metallic = alpi_gltf_float(metallic);
-    return read_texture(from, object, "metallicRoughnessTexture", &material->metallic_texture);
+    double roughness = 1.0;
+    ALP_TRY(alpi_gltf_number(from->reader->document, object, "roughnessFactor", from->owner,
+                             &roughness));
+    material->shine.roughness = fminf(fmaxf(alpi_gltf_float(roughness), 0.0f), 1.0f);
+    ALP_TRY(read_texture(from, object, "metallicRoughnessTexture", &material->metallic_texture));
+    material->shine.roughness_texture = material->metallic_texture;
+    return ALP_OK;
+}
+
+/// Light does not need it, so nothing of it is warned of here.
+static alp_result read_shine(const source *from, alpi_shine *shine)
+{
+    const alpi_gltf_document *document = from->reader->document;
+    const source quiet = {from->reader, from->object, from->owner, true};
+    json_t *ior = alpi_gltf_extension(from->object, "KHR_materials_ior");
+    json_t *specular = alpi_gltf_extension(from->object, "KHR_materials_specular");
+    double index = 0.0, factor = 1.0, color[3] = {1.0, 1.0, 1.0};
+    ALP_TRY(alpi_gltf_number(document, ior, "ior", from->owner, &index));
+    shine->index = alpi_gltf_float(index);
+    if (specular == NULL) {
+        return ALP_OK;
+    }
+    shine->has_specular = true;
+    ALP_TRY(alpi_gltf_number(document, specular, "specularFactor", from->owner, &factor));
+    ALP_TRY(alpi_gltf_numbers(document, specular, "specularColorFactor", from->owner, 3, color));
+    for (int k = 0; k < 3; k++) {
+        shine->specular[k] = fminf(fmaxf(alpi_gltf_float(factor * color[k]), 0.0f), 1.0f);
+    }
+    return read_texture(&quiet, specular, "specularColorTexture", &shine->specular_texture);
 }
 
 static alp_result read_specular_glossiness(const source *from, json_t *object,
@@ -311,6 +340,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     ALP_TRY(read_transmission(from, material));
     ALP_TRY(read_occlusion(from, material));
     ALP_TRY(read_normal(from, material));
+    ALP_TRY(read_shine(from, &material->shine));
     read_blend(from, material);
     return ALP_OK;
 }

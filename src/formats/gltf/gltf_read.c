@@ -40,6 +40,11 @@ static void destroy_document(alp_context *context, void *data)
     alpi_gltf_document_destroy(data);
 }
 
+static alp_result read_picture(const alp_scene *scene, uint32_t index, alp_image **image)
+{
+    return alpi_gltf_read_image(scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data, index, image);
+}
+
 /// The document becomes the scene's, also on failure.
 static alp_result read_document(alpi_gltf_reader *reader, alpi_gltf_document *document,
                                 alp_scene **scene)
@@ -52,6 +57,7 @@ static alp_result read_document(alpi_gltf_reader *reader, alpi_gltf_document *do
     }
     reader->scene->attachments[ALPI_ATTACHMENT_DOCUMENT] =
         (alpi_attachment){document, destroy_document};
+    reader->scene->read_image = read_picture;
     result = fill_scene(reader);
     alpi_release(reader->context, reader->world);
     alpi_release(reader->context, reader->order);

@@ -1,116 +1,22 @@
 // SPDX-License-Identifier: MIT
-// MTL files → materials: Kd, Ke, d, Tr, map_Kd, map_Ke and map_d. What only shines (Ka, Ks, Ns, …)
-// has no part in diffuse light.
-#include "formats/obj/obj.h"
+// MTL statements → materials: Kd, Ke, d, Tr and their maps; and gloss and relief (Ks, Ns, Ni, Pr,
+// Pm, bump, norm), which have no part in diffuse light, for files that are written.
+#include "formats/obj/obj_materials.h"
 
-#include "base/file.h"
-#include "base/hash.h"
+#include "base/decimal.h"
 #include "base/memory.h"
 #include "formats/files/outside.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
-#define LIBRARY_LIMIT ((uint64_t)256 << 20) // bytes
-
-/// While libraries are read.
-typedef struct reader {
-    alpi_obj *obj;
-    alp_scene *scene;
-    alpi_obj_names *images; // paths in the asset's folder
-    alpi_obj_names names;   // of scene.materials
-    alpi_obj_names read;    // paths of libraries, in the asset's folder: each is read once
-    size_t capacity;        // of scene.materials
-    char *folder;           // of the library, in the asset's
-    bool skipping;          // a material that is there already
-    bool has_color;         // the material said Kd
-    bool has_emission;      // … and Ke
-    bool occlusion;         // map_Ka holds occlusion (our own files say so)
-    uint32_t map_d;         // image, ALPI_NONE = none
-} reader;
-
-// --- paths ---------------------------------------------------------------------------------------
-
-/// Drops the last part of a path that ends in a slash. Where there is none it climbs out, or, where
-/// that is not allowed, false.
-static bool climb(char *path, size_t *size, bool outside)
+static alpi_material *last_material(const alpi_mtl_reader *r)
 {
-    if (*size == 1 && path[0] == '/') {
-        return outside; // nothing is above the root
-    }
-    const bool climbed = *size >= 3 && memcmp(path + *size - 3, "../", 3) == 0;
-    if (*size == 0 || climbed) {
-        memcpy(path + *size, "../", 3);
-        *size += 3;
-        return outside;
-    }
-    do {
-        --*size;
-    } while (*size > 0 && path[*size - 1] != '/');
-    return true;
+    return &r->scene->materials[r->scene->material_count - 1];
 }
 
-/// Appends the parts of a name to a path of *size bytes; false where it leaves the folder and may
-/// not (`outside`).
-static bool walk(char *path, size_t *size, alpi_obj_word name, bool outside)
-{
-    size_t at = 0;
-    if (name.size == 0 || (name.text[0] == '/' && !outside) || name.text[0] == '\\' ||
-        (name.size > 1 && name.text[1] == ':') || memchr(name.text, '\0', name.size) != NULL) {
-        return false;
-    }
-    if (name.text[0] == '/') {
-        path[0] = '/';
-        *size = 1;
-    }
-    while (at < name.size) {
-        size_t length = 0;
-        while (at + length < name.size && name.text[at + length] != '/' &&
-               name.text[at + length] != '\\') { // as Windows writes them
-            length++;
-        }
-        const char *part = name.text + at;
-        bool last = at + length >= name.size;
-        at += length + 1;
-        if (length == 2 && part[0] == '.' && part[1] == '.') {
-            if (!climb(path, size, outside)) {
-                return false;
-            }
-        } else if (length > 0 && !(length == 1 && part[0] == '.')) {
-            memcpy(path + *size, part, length);
-            *size += length;
-            path[*size] = '/';
-            *size += !last;
-        }
-    }
-    path[*size] = '\0';
-    return *size > 0 && path[*size - 1] != '/';
-}
-
-alp_result alpi_obj_resolve(alp_context *context, const char *folder, alpi_obj_word name,
-                            char **path)
-{
-    size_t size = strlen(folder);
-    *path = ALPI_NEW(context, char, size + name.size + 4); // a slash that ".." lacks, and 0
-    if (*path == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
-    memcpy(*path, folder, size);
-    if (!walk(*path, &size, name, alpi_context_options(context)->read_outside)) {
-        alpi_release(context, *path);
-        *path = NULL;
-    }
-    return ALP_OK;
-}
-
-char *alpi_obj_path(const alpi_obj *obj, const char *inner)
-{
-    return alpi_format(obj->context, "%s%s", inner[0] == '/' ? "" : obj->folder, inner);
-}
-
-/// A copy of a word for messages, without control characters.
-static void show(alpi_obj_word word, char text[128])
+void alpi_mtl_show(alpi_obj_word word, char text[128])
 {
     snprintf(text, 128, "%.*s", (int)(word.size < 120 ? word.size : 120), word.text);
     for (char *c = text; *c != '\0'; c++) {
@@ -120,98 +26,45 @@ static void show(alpi_obj_word word, char text[128])
 
 // --- textures ------------------------------------------------------------------------------------
 
-static bool word_is_number(alpi_obj_word word)
-{
-    return word.size > 0 &&
-           (word.text[0] == '-' || word.text[0] == '+' || word.text[0] == '.' ||
-            (unsigned)(word.text[0] - '0') < 10) &&
-           !(word.text[0] == '-' && (word.size == 1 || (word.text[1] | 0x20) >= 'a'));
-}
-
-/// Takes one to three numbers of an option; those that are not there stay.
-static alp_result take_numbers(alpi_obj_text *t, const char *what, float values[3])
-{
-    for (int k = 0; k < 3 && alpi_obj_more(t); k++) {
-        alpi_obj_text ahead = *t;
-        if (!word_is_number(alpi_obj_take_word(&ahead))) {
-            break;
-        }
-        ALP_TRY(alpi_obj_take_float(t, what, &values[k]));
-    }
-    return ALP_OK;
-}
-
-/// Options before the file's name: -s, -o and -clamp count, others are passed.
-static alp_result take_options(alpi_obj_text *t, alpi_texture *texture)
-{
-    static const struct {
-        const char *name;
-        int words;
-    } others[] = {{"-blendu", 1}, {"-blendv", 1}, {"-cc", 1},      {"-mm", 2},  {"-bm", 1},
-                  {"-boost", 1},  {"-texres", 1}, {"-imfchan", 1}, {"-type", 1}};
-    float scale[3] = {1.0f, 1.0f, 1.0f}, offset[3] = {0.0f, 0.0f, 0.0f}, turbulence[3];
-    while (alpi_obj_more(t) && *t->at == '-') {
-        const alpi_obj_text start = *t;
-        const alpi_obj_word option = alpi_obj_take_word(t);
-        size_t other = 0;
-        while (other < sizeof others / sizeof *others &&
-               !alpi_obj_word_is(option, others[other].name)) {
-            other++;
-        }
-        if (alpi_obj_word_is(option, "-s")) {
-            ALP_TRY(take_numbers(t, "-s", scale));
-        } else if (alpi_obj_word_is(option, "-o")) {
-            ALP_TRY(take_numbers(t, "-o", offset));
-        } else if (alpi_obj_word_is(option, "-t")) {
-            ALP_TRY(take_numbers(t, "-t", turbulence));
-        } else if (alpi_obj_word_is(option, "-clamp")) {
-            bool on = alpi_obj_word_is(alpi_obj_take_word(t), "on");
-            texture->wrap_u = texture->wrap_v = on ? ALPI_WRAP_CLAMP : ALPI_WRAP_REPEAT;
-        } else if (other < sizeof others / sizeof *others) {
-            for (int i = 0; i < others[other].words; i++) {
-                (void)alpi_obj_take_word(t);
-            }
-        } else { // the file's name begins so
-            *t = start;
-            break;
-        }
-    }
-    // The file says w = o + s·w of w = 1 − v; ours is v' = 1 − o − s + s·v.
-    texture->scale[0] = scale[0];
-    texture->offset[0] = offset[0];
-    texture->scale[1] = scale[1];
-    texture->offset[1] = 1.0f - offset[1] - scale[1];
-    return ALP_OK;
-}
-
 /// The texture of a statement; lost where the file that it names is outside.
-static alp_result find_texture(reader *r, alpi_obj_text *t, alpi_texture *texture, char shown[128])
+static alp_result find_texture(alpi_mtl_reader *r, alpi_obj_text *t, alpi_texture *texture,
+                               float *bump, char shown[128])
 {
-    char *path = NULL;
+    alpi_mtl_picture picture;
     bool added;
     *texture = alpi_texture_none();
-    ALP_TRY(take_options(t, texture));
-    const alpi_obj_word name = alpi_obj_take_rest(t);
-    if (name.size == 0) {
-        return ALP_OK;
+    alp_result result = alpi_mtl_take_picture(t, r->obj->folder, r->folder, &picture);
+    if (result == ALP_OK && picture.name.size > 0) {
+        *texture = picture.texture;
+        alpi_mtl_show(picture.name, shown);
+        texture->lost = picture.path == NULL;
+        if (picture.path != NULL) {
+            result = alpi_obj_names_add(r->images, picture.path, strlen(picture.path),
+                                        &texture->image, &added);
+            if (result == ALP_OK && added) {
+                alpi_note_found(r->obj->context, shown, picture.path, picture.found);
+            }
+        }
     }
-    show(name, shown);
-    ALP_TRY(alpi_obj_resolve(r->obj->context, r->folder, name, &path));
-    if (path == NULL) {
-        texture->lost = true;
-        return ALP_OK;
+    if (bump != NULL) {
+        *bump = picture.bump;
     }
-    alp_result result = alpi_obj_names_add(r->images, path, strlen(path), &texture->image, &added);
-    alpi_release(r->obj->context, path);
+    alpi_release(r->obj->context, picture.path);
     return result;
 }
 
-static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, alpi_texture *texture)
+static alp_result read_texture(alpi_mtl_reader *r, alpi_obj_text *t, const char *what,
+                               alpi_texture *texture)
 {
     char shown[128];
-    ALP_TRY(find_texture(r, t, texture, shown));
-    if (texture->lost) {
-        alpi_warn(r->obj->context, "image", r->scene->materials[r->scene->material_count - 1].name,
+    ALP_TRY(find_texture(r, t, texture, NULL, shown));
+    if (texture->lost && alpi_path_is_foreign(shown)) {
+        alpi_warn(r->obj->context, "image", last_material(r)->name,
+                  "%s: line %llu: \"%s\" leaves the asset's folder, for a folder of another "
+                  "machine; put the file beside the asset: the colour of %s is used alone",
+                  t->path, (unsigned long long)t->line, shown, what + 4);
+    } else if (texture->lost) {
+        alpi_warn(r->obj->context, "image", last_material(r)->name,
                   "%s: line %llu: \"%s\" leaves the asset's folder; " ALPI_OUTSIDE_HINT ": "
                   "the colour of %s is used alone",
                   t->path, (unsigned long long)t->line, shown, what + 4);
@@ -219,15 +72,95 @@ static alp_result read_texture(reader *r, alpi_obj_text *t, const char *what, al
     return ALP_OK;
 }
 
-// --- statements ----------------------------------------------------------------------------------
+/// A texture that light does not read, so nothing is warned of here.
+static alp_result read_quiet_texture(alpi_mtl_reader *r, alpi_obj_text *t, alpi_texture *texture,
+                                     float *bump)
+{
+    char shown[128];
+    return find_texture(r, t, texture, bump, shown);
+}
 
-/// What the statements of a material say together.
-static void finish_material(reader *r)
+// --- the end of a material -----------------------------------------------------------------------
+
+static bool is_same_place(const alpi_texture *a, const alpi_texture *b)
+{
+    return a->wrap_u == b->wrap_u && a->wrap_v == b->wrap_v && a->scale[0] == b->scale[0] &&
+           a->scale[1] == b->scale[1] && a->offset[0] == b->offset[0] &&
+           a->offset[1] == b->offset[1];
+}
+
+/// A mask in a file of its own becomes the alpha of one picture with the colours: "COLOURS\nMASK".
+static alp_result join_mask(alpi_mtl_reader *r, alpi_material *m)
+{
+    alpi_texture *base = &m->base_color_texture;
+    bool added;
+    if (base->image == r->mask.image) {
+        return ALP_OK;
+    }
+    char *name = alpi_format(r->obj->context, "%s\n%s",
+                             base->image == ALPI_NONE ? "" : alpi_obj_name(r->images, base->image),
+                             alpi_obj_name(r->images, r->mask.image));
+    if (name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result =
+        alpi_obj_names_add(r->images, name, strlen(name), &r->mask.image, &added);
+    alpi_release(r->obj->context, name);
+    *base = r->mask;
+    return result;
+}
+
+/// d says it, else Tr; exporters disagree on the sign of Tr, and nobody models the invisible.
+static alp_result finish_alpha(alpi_mtl_reader *r, alpi_material *m)
+{
+    if (!r->has_opacity && r->transparency >= 1.0f) {
+        r->invisible++;
+    } else if (!r->has_opacity) {
+        m->base_color[3] = 1.0f - r->transparency;
+    }
+    const bool blends = m->base_color[3] < 1.0f;
+    m->alpha_mode = blends ? ALPI_ALPHA_BLEND : ALPI_ALPHA_OPAQUE;
+    if (r->mask.image == ALPI_NONE) {
+        return ALP_OK;
+    }
+    if (m->base_color_texture.image != ALPI_NONE && m->base_color_texture.image != r->mask.image &&
+        !is_same_place(&m->base_color_texture, &r->mask)) {
+        alpi_warn(r->obj->context, "map-d", m->name,
+                  "map_d has other -s, -o or -clamp than map_Kd, and is left out: the material is "
+                  "read as opaque; give both the same");
+        return ALP_OK;
+    }
+    ALP_TRY(join_mask(r, m));
+    m->alpha_mode = blends ? ALPI_ALPHA_BLEND : ALPI_ALPHA_MASK;
+    m->alpha_cutoff = 0.5f;
+    return ALP_OK;
+}
+
+/// Roughness of a Blinn-Phong exponent: α² = 2 / (n + 2) (B. Walter, S. Marschner, H. Li and
+/// K. Torrance. Microfacet Models for Refraction through Rough Surfaces, EGSR 2007), where glTF has
+/// α = roughness². Without highlights an exponent means nothing.
+static void finish_shine(const alpi_mtl_reader *r, alpi_shine *shine)
+{
+    const bool dull = r->model < 2 || (shine->has_specular && shine->specular[0] <= 0.0f &&
+                                       shine->specular[1] <= 0.0f && shine->specular[2] <= 0.0f);
+    if (!r->has_roughness && r->exponent >= 0.0f && !dull) {
+        shine->roughness = powf(2.0f / (r->exponent + 2.0f), 0.25f);
+    }
+    if (!r->has_roughness && shine->roughness_texture.image != ALPI_NONE) {
+        shine->roughness = 1.0f; // the map says it
+    }
+    shine->roughness = fminf(fmaxf(shine->roughness, 0.0f), 1.0f);
+    for (int k = 0; k < 3; k++) {
+        shine->specular[k] = fminf(fmaxf(shine->specular[k], 0.0f), 1.0f);
+    }
+}
+
+alp_result alpi_mtl_finish_material(alpi_mtl_reader *r)
 {
     if (r->skipping || r->scene->material_count == 0) {
-        return;
+        return ALP_OK;
     }
-    alpi_material *m = &r->scene->materials[r->scene->material_count - 1];
+    alpi_material *m = last_material(r);
     if (r->occlusion && m->base_color_texture.image == m->occlusion_texture.image) {
         m->base_color_texture = alpi_texture_none(); // we put it there, for viewers to show
     } else if (!r->occlusion) {
@@ -239,30 +172,31 @@ static void finish_material(reader *r)
     if (!r->has_emission && m->emission_texture.image != ALPI_NONE) {
         m->emission[0] = m->emission[1] = m->emission[2] = 1.0f; // else its picture means nothing
     }
-    if (m->base_color[3] < 1.0f) {
-        m->alpha_mode = ALPI_ALPHA_BLEND;
-    } else if (r->map_d != ALPI_NONE && r->map_d == m->base_color_texture.image) {
-        m->alpha_mode = ALPI_ALPHA_MASK;
-        m->alpha_cutoff = 0.5f;
-    } else if (r->map_d != ALPI_NONE) {
-        alpi_note(r->obj->context, "map-d", m->name,
-                  "map_d is read only if it is the file of map_Kd, as its alpha; this material "
-                  "is read as opaque");
+    if (m->metallic_texture.image != ALPI_NONE && m->metallic == 0.0f) {
+        m->metallic = 1.0f; // a map without Pm
     }
-    r->map_d = ALPI_NONE;
+    finish_shine(r, &m->shine);
+    const alp_result result = finish_alpha(r, m);
+    r->mask = alpi_texture_none();
+    return result;
 }
 
-static alp_result start_material(reader *r, alpi_obj_text *t)
+// --- statements ----------------------------------------------------------------------------------
+
+static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
 {
     alp_scene *s = r->scene;
     const alpi_obj_word name = alpi_obj_take_rest(t);
     uint32_t number;
     bool added;
-    finish_material(r);
+    ALP_TRY(alpi_mtl_finish_material(r));
     ALP_TRY(alpi_obj_names_add(&r->names, name.text, name.size, &number, &added));
     r->skipping = !added;
-    r->has_color = r->has_emission = r->occlusion = false;
-    r->map_d = ALPI_NONE;
+    r->has_color = r->has_emission = r->has_opacity = r->has_roughness = r->occlusion = false;
+    r->transparency = 0.0f;
+    r->exponent = -1.0f;
+    r->model = 2;
+    r->mask = alpi_texture_none();
     if (!added) {
         alpi_note(r->obj->context, "material", alpi_obj_name(&r->names, number),
                   "%s: line %llu: there is a material of this name already, which is used", t->path,
@@ -287,11 +221,11 @@ static alp_result start_material(reader *r, alpi_obj_text *t)
 }
 
 /// Three numbers, or one that stands for all. A spectrum file and CIE XYZ are not read.
-static alp_result read_color(reader *r, alpi_obj_text *t, const char *what, float color[3])
+static alp_result read_color(alpi_mtl_reader *r, alpi_obj_text *t, const char *what, float color[3])
 {
     alpi_obj_text ahead = *t;
-    if (!word_is_number(alpi_obj_take_word(&ahead))) {
-        alpi_note(r->obj->context, "color", r->scene->materials[r->scene->material_count - 1].name,
+    if (!alpi_mtl_is_number(alpi_obj_take_word(&ahead))) {
+        alpi_note(r->obj->context, "color", last_material(r)->name,
                   "%s: line %llu: %s is read as red, green and blue only", t->path,
                   (unsigned long long)t->line, what);
         return ALP_OK;
@@ -304,18 +238,65 @@ static alp_result read_color(reader *r, alpi_obj_text *t, const char *what, floa
     return ALP_OK;
 }
 
-static alp_result read_opacity(alpi_obj_text *t, bool inverse, float *alpha)
+static alp_result read_opacity(alpi_obj_text *t, const char *what, float *value)
 {
-    float value = 1.0f;
-    if (alpi_obj_more(t) && !word_is_number((alpi_obj_word){t->at, 1})) {
+    if (alpi_obj_more(t) && !alpi_mtl_is_number((alpi_obj_word){t->at, 1})) {
         (void)alpi_obj_take_word(t); // -halo
     }
-    ALP_TRY(alpi_obj_take_float(t, inverse ? "Tr" : "d", &value));
-    *alpha = inverse ? 1.0f - value : value;
+    return alpi_obj_take_float(t, what, value);
+}
+
+/// A number that light does not read: another word in its place is passed.
+static bool take_quiet_number(alpi_obj_text *t, float *value)
+{
+    const alpi_obj_word word = alpi_obj_take_word(t);
+    float number;
+    const char *end = word.text + word.size;
+    const bool whole = word.size > 0 && alpi_decimal_float(word.text, end, &number) == end;
+    *value = whole && isfinite(number) ? number : *value;
+    return whole;
+}
+
+/// Gloss and relief.
+static alp_result read_shine(alpi_mtl_reader *r, alpi_obj_text *t, alpi_obj_word key)
+{
+    alpi_material *m = last_material(r);
+    alpi_shine *shine = &m->shine;
+    float number = 2.0f;
+    if (alpi_obj_word_is(key, "Ks")) {
+        shine->has_specular = take_quiet_number(t, &shine->specular[0]);
+        shine->specular[1] = shine->specular[2] = shine->specular[0];
+        for (int k = 1; k < 3 && alpi_obj_more(t); k++) {
+            take_quiet_number(t, &shine->specular[k]);
+        }
+    } else if (alpi_obj_word_is(key, "Ns")) {
+        take_quiet_number(t, &r->exponent);
+    } else if (alpi_obj_word_is(key, "Ni")) {
+        take_quiet_number(t, &shine->index);
+    } else if (alpi_obj_word_is(key, "Pr")) {
+        r->has_roughness = take_quiet_number(t, &shine->roughness);
+    } else if (alpi_obj_word_is(key, "Pm")) {
+        take_quiet_number(t, &m->metallic);
+    } else if (alpi_obj_word_is(key, "illum")) {
+        take_quiet_number(t, &number);
+        r->model = number >= 0.0f && number < 2.0f ? (int)number : 2;
+    } else if (alpi_obj_word_is(key, "map_Ks")) {
+        shine->has_specular = true;
+        return read_quiet_texture(r, t, &shine->specular_texture, NULL);
+    } else if (alpi_obj_word_is(key, "map_Pr")) {
+        return read_quiet_texture(r, t, &shine->roughness_texture, NULL);
+    } else if (alpi_obj_word_is(key, "map_Pm")) {
+        return read_quiet_texture(r, t, &m->metallic_texture, NULL);
+    } else if (alpi_obj_word_is(key, "norm") || alpi_obj_word_is(key, "map_Kn")) {
+        return read_quiet_texture(r, t, &m->normal_texture, &m->normal_scale);
+    } else if (alpi_obj_word_is(key, "map_Bump") || alpi_obj_word_is(key, "map_bump") ||
+               alpi_obj_word_is(key, "bump")) { // heights or normals: it does not say
+        return read_quiet_texture(r, t, &shine->bump_texture, &shine->bump_scale);
+    }
     return ALP_OK;
 }
 
-static alp_result read_statement(reader *r, alpi_obj_text *t)
+alp_result alpi_mtl_read_statement(alpi_mtl_reader *r, alpi_obj_text *t)
 {
     const alpi_obj_word key = alpi_obj_take_word(t);
     if (alpi_obj_word_is(key, "newmtl")) {
@@ -324,7 +305,7 @@ static alp_result read_statement(reader *r, alpi_obj_text *t)
     if (r->scene->material_count == 0 || r->skipping) {
         return ALP_OK;
     }
-    alpi_material *m = &r->scene->materials[r->scene->material_count - 1];
+    alpi_material *m = last_material(r);
     if (alpi_obj_word_is(key, "Kd")) {
         r->has_color = true;
         return read_color(r, t, "Kd", m->base_color);
@@ -333,8 +314,12 @@ static alp_result read_statement(reader *r, alpi_obj_text *t)
         r->has_emission = true;
         return read_color(r, t, "Ke", m->emission);
     }
-    if (alpi_obj_word_is(key, "d") || alpi_obj_word_is(key, "Tr")) {
-        return read_opacity(t, key.size == 2, &m->base_color[3]);
+    if (alpi_obj_word_is(key, "d")) {
+        r->has_opacity = true;
+        return read_opacity(t, "d", &m->base_color[3]);
+    }
+    if (alpi_obj_word_is(key, "Tr")) {
+        return read_opacity(t, "Tr", &r->transparency);
     }
     if (alpi_obj_word_is(key, "map_Kd")) {
         return read_texture(r, t, "map_Kd", &m->base_color_texture);
@@ -345,146 +330,9 @@ static alp_result read_statement(reader *r, alpi_obj_text *t)
     if (alpi_obj_word_is(key, "map_Ka") && r->occlusion) {
         return read_texture(r, t, "map_Ka", &m->occlusion_texture);
     }
-    if (alpi_obj_word_is(key,
-                         "norm")) { // map_Bump may be heights or normals, which it does not say
-        char shown[128];
-        return find_texture(r, t, &m->normal_texture, shown);
-    }
     if (alpi_obj_word_is(key, "map_d")) {
-        alpi_texture texture;
-        ALP_TRY(read_texture(r, t, "map_d", &texture));
-        r->map_d = texture.image;
+        return read_texture(r, t, "map_d", &r->mask);
     }
     r->occlusion = r->occlusion || alpi_obj_word_is(key, "alpenglow_occlusion");
-    return ALP_OK;
-}
-
-// --- libraries -----------------------------------------------------------------------------------
-
-static alp_result read_library(reader *r, const char *path, const char *inner)
-{
-    alp_context *context = r->obj->context;
-    uint8_t *bytes = NULL;
-    size_t size = 0;
-    ALP_TRY(alpi_file_read(context, path, LIBRARY_LIMIT, &bytes, &size));
-    r->obj->hash = alpi_hash_bytes(r->obj->hash, bytes, size);
-    const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    alpi_obj_text text = {.context = context,
-                          .path = path,
-                          .at = (const char *)bytes + mark,
-                          .end = (const char *)bytes + size,
-                          .line = 1};
-    r->folder = alpi_path_folder(context, inner);
-    r->skipping = true; // until its first newmtl
-    alp_result result = r->folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-    while (result == ALP_OK && alpi_obj_next_line(&text)) {
-        result = read_statement(r, &text);
-    }
-    if (result == ALP_OK) {
-        finish_material(r);
-    }
-    alpi_release(context, r->folder);
-    alpi_release(context, bytes);
-    r->folder = NULL;
-    return result;
-}
-
-/// One library; what cannot be read costs a warning. @param only_try nothing where it is not there
-static alp_result try_library(reader *r, alpi_obj_word name, bool only_try, bool *found)
-{
-    alp_context *context = r->obj->context;
-    char *inner = NULL, *path = NULL, shown[128], reason[512];
-    *found = false;
-    show(name, shown);
-    ALP_TRY(alpi_obj_resolve(context, "", name, &inner));
-    if (inner != NULL) {
-        path = alpi_obj_path(r->obj, inner);
-        if (path == NULL) {
-            alpi_release(context, inner);
-            return ALP_ERROR_OUT_OF_MEMORY;
-        }
-    }
-    alp_result result = ALP_OK;
-    if (path != NULL && access(path, F_OK) == 0) {
-        uint32_t number;
-        bool added = false;
-        *found = true;
-        result = alpi_obj_names_add(&r->read, inner, strlen(inner), &number, &added);
-        if (result == ALP_OK && added) {
-            result = read_library(r, path, inner);
-        }
-    }
-    if (result == ALP_ERROR_IO || result == ALP_ERROR_LIMIT) {
-        snprintf(reason, sizeof reason, "%s", alp_context_message(context));
-        alpi_warn(context, "mtllib", shown, "%s; its materials are missing", reason);
-        result = ALP_OK;
-    } else if (result == ALP_OK && !*found && !only_try) {
-        alpi_warn(context, "mtllib", shown,
-                  path == NULL ? "leaves the asset's folder; " ALPI_OUTSIDE_HINT
-                                 ": its materials are missing"
-                               : "is not there: its materials are missing");
-    }
-    alpi_release(context, inner);
-    alpi_release(context, path);
-    return result;
-}
-
-/// The names of a line: one that has spaces, or several between spaces.
-static alp_result read_libraries(reader *r, const char *line)
-{
-    const alpi_obj_word whole = {line, strlen(line)};
-    bool found;
-    const bool is_one = strpbrk(line, " \t") == NULL;
-    ALP_TRY(try_library(r, whole, !is_one, &found));
-    for (const char *at = line; !found && !is_one && *at != '\0';) {
-        at += strspn(at, " \t");
-        const alpi_obj_word word = {at, strcspn(at, " \t")};
-        at += word.size;
-        bool there;
-        if (word.size > 0) {
-            ALP_TRY(try_library(r, word, false, &there));
-        }
-    }
-    return ALP_OK;
-}
-
-/// The scene's material of each name that usemtl gave.
-static alp_result match_names(reader *r, uint32_t **materials)
-{
-    const alpi_obj_names *used = &r->obj->material_names;
-    ALPI_TRY_NEW(r->obj->context, *materials, used->count);
-    for (uint32_t i = 0; i < used->count; i++) {
-        const char *name = alpi_obj_name(used, i);
-        (*materials)[i] = alpi_obj_names_find(&r->names, name, used->sizes[i]);
-        if ((*materials)[i] == ALPI_NONE) {
-            char shown[128];
-            show((alpi_obj_word){name, used->sizes[i]}, shown);
-            alpi_warn(r->obj->context, "material", shown,
-                      "is in no material library: its surfaces are read as grey (albedo 0.5)");
-        }
-    }
-    return ALP_OK;
-}
-
-alp_result alpi_obj_read_materials(alpi_obj *obj, alp_scene *scene, alpi_obj_names *images,
-                                   uint32_t **scene_materials)
-{
-    reader r = {.obj = obj,
-                .scene = scene,
-                .images = images,
-                .names = alpi_obj_names_create(obj->context),
-                .read = alpi_obj_names_create(obj->context),
-                .skipping = true,
-                .map_d = ALPI_NONE};
-    alp_result result = ALP_OK;
-    *scene_materials = NULL;
-    for (uint32_t i = 0; result == ALP_OK && i < obj->libraries.count; i++) {
-        result = read_libraries(&r, alpi_obj_name(&obj->libraries, i));
-    }
-    if (result == ALP_OK) {
-        result = match_names(&r, scene_materials);
-    }
-    alpi_obj_names_destroy(&r.names);
-    alpi_obj_names_destroy(&r.read);
-    return result;
+    return read_shine(r, t, key);
 }

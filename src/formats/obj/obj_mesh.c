@@ -13,7 +13,7 @@
 enum { EXPANSION_LIMIT = 1 << 28, SURFACE_LIMIT = 1 << 22 }; // as glTF's
 
 typedef struct builder {
-    const alpi_obj *obj;
+    alpi_obj *obj;
     alp_scene *scene;
     uint32_t *order;        // [face_count] faces, those of a surface together
     uint32_t *surface_ends; // [surface_count] in `order`
@@ -36,19 +36,49 @@ static uint32_t face_size(const alpi_obj *o, uint32_t face)
 
 // --- checks and order ----------------------------------------------------------------------------
 
-static alp_result check_corners(const alpi_obj *o)
+static alp_result fail_index(const alpi_obj *o, uint32_t face, int kind, uint32_t index)
 {
     static const char *const names[3] = {"vertex", "texture coordinate", "normal"};
     const uint32_t counts[3] = {o->position_count, o->uv_count, o->normal_count};
+    if (index == ALPI_OBJ_BEFORE_FIRST) {
+        return alpi_fail(o->context, ALP_ERROR_INVALID_DATA,
+                         "%s: line %u: f: a %s before the first", o->path, o->faces[face].line,
+                         names[kind]);
+    }
+    return alpi_fail(o->context, ALP_ERROR_INVALID_DATA, "%s: line %u: f: %s %u of %u", o->path,
+                     o->faces[face].line, names[kind], index + 1, counts[kind]);
+}
+
+/// Coordinates and normals of which the file has none are left out; any other index that is too
+/// large is a fault.
+static alp_result check_corners(alpi_obj *o)
+{
+    static const char *const kinds[3] = {"", "texture coordinates (vt)", "normals (vn)"};
+    const uint32_t counts[3] = {o->position_count, o->uv_count, o->normal_count};
+    uint32_t without[3] = {0, 0, 0}; // faces
     for (uint32_t f = 0; f < o->face_count; f++) {
+        bool lacks[3] = {false, false, false};
         for (uint32_t c = o->faces[f].first_corner; c < o->faces[f + 1].first_corner; c++) {
             for (int k = 0; k < 3; k++) {
-                if (o->corners[c][k] != ALPI_NONE && o->corners[c][k] >= counts[k]) {
-                    return alpi_fail(o->context, ALP_ERROR_INVALID_DATA,
-                                     "%s: line %u: f: %s %u of %u", o->path, o->faces[f].line,
-                                     names[k], o->corners[c][k] + 1, counts[k]);
+                uint32_t *index = &o->corners[c][k];
+                if (*index == ALPI_NONE || *index < counts[k]) {
+                    continue;
                 }
+                if (k == 0 || counts[k] > 0) {
+                    return fail_index(o, f, k, *index);
+                }
+                *index = ALPI_NONE;
+                lacks[k] = true;
             }
+        }
+        without[1] += lacks[1];
+        without[2] += lacks[2];
+    }
+    for (int k = 1; k < 3; k++) {
+        if (without[k] > 0) {
+            alpi_warn(o->context, "missing-data", o->path,
+                      "faces that name %s, of which the file has none: %u; read without", kinds[k],
+                      without[k]);
         }
     }
     return ALP_OK;
@@ -95,6 +125,10 @@ static alp_result allocate(builder *b)
     ALPI_TRY_NEW(o->context, scene->triangles, triangles);
     ALPI_TRY_NEW(o->context, scene->triangle_surface, triangles);
     ALPI_TRY_NEW(o->context, scene->surfaces, o->surface_count);
+    ALPI_TRY_NEW(o->context, b->obj->face_triangles, o->face_count);
+    if (largest > 3) {
+        ALPI_TRY_NEW(o->context, b->obj->triangle_corners, triangles);
+    }
     ALPI_TRY_NEW(o->context, b->points, largest);
     ALPI_TRY_NEW(o->context, b->vertices, largest);
     ALPI_TRY_NEW(o->context, b->parts, largest - 2);
@@ -115,10 +149,13 @@ static alp_result resize(builder *b, size_t length)
                   {(void **)&s->normals, sizeof *s->normals},
                   {(void **)&s->vertex_source, sizeof *s->vertex_source},
                   {(void **)&b->vertex_corners, sizeof *b->vertex_corners},
-                  {(void **)&s->uvs[0], sizeof *s->uvs[0]},
-                  {(void **)&s->uvs[1], sizeof *s->uvs[1]}};
-    const size_t count = sizeof arrays / sizeof *arrays - (b->has_uvs ? 0 : 2);
-    for (size_t i = 0; i < count; i++) {
+                  {(void **)&s->uvs[0], b->has_uvs ? sizeof *s->uvs[0] : 0},
+                  {(void **)&s->uvs[1], b->has_uvs ? sizeof *s->uvs[1] : 0},
+                  {(void **)&s->colors, b->obj->colors != NULL ? sizeof *s->colors : 0}};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        if (arrays[i].size == 0) {
+            continue;
+        }
         void *moved = alpi_reallocate(context, *arrays[i].items, length, arrays[i].size);
         if (moved == NULL) {
             return ALP_ERROR_OUT_OF_MEMORY;
@@ -137,6 +174,17 @@ static void place(const builder *b, uint32_t position, float placed[3])
     }
 }
 
+/// Colours of files are for screens (Blender, MeshLab and three.js read them so), those of a scene
+/// are linear.
+static void color_vertex(const builder *b, uint32_t position, float color[4])
+{
+    for (int k = 0; k < 3; k++) {
+        const float value = b->obj->colors[position][k];
+        color[k] = alpi_srgb_to_linear(value < 0.0f ? 0.0f : value > 1.0f ? 1.0f : value);
+    }
+    color[3] = 1.0f;
+}
+
 /// A vertex of this corner; without a normal it gets that of its triangle at the end.
 static alp_result add_vertex(builder *b, const uint32_t corner[3], uint32_t *vertex)
 {
@@ -147,6 +195,9 @@ static alp_result add_vertex(builder *b, const uint32_t corner[3], uint32_t *ver
     }
     const uint32_t v = *vertex = s->vertex_count++;
     place(b, corner[0], s->positions[v]);
+    if (o->colors != NULL) {
+        color_vertex(b, corner[0], s->colors[v]);
+    }
     memset(s->normals[v], 0, sizeof *s->normals);
     if (corner[2] != ALPI_NONE) {
         memcpy(s->normals[v], o->normals[corner[2]], sizeof *s->normals);
@@ -228,6 +279,11 @@ static alp_result add_face(builder *b, uint32_t face)
     }
     surface->normals_generated = surface->normals_generated || flat;
     ALP_TRY(cut_face(b, corners, size));
+    b->obj->face_triangles[face] = s->triangle_count;
+    if (b->obj->triangle_corners != NULL) {
+        memcpy(b->obj->triangle_corners + s->triangle_count, b->parts,
+               (size_t)(size - 2) * sizeof *b->parts);
+    }
     for (uint32_t i = 0; !flat && i < size; i++) {
         ALP_TRY(find_vertex(b, corners[i], &b->vertices[i]));
     }
@@ -304,7 +360,7 @@ static void choose_origin(builder *b)
 
 static alp_result build(builder *b, const uint32_t *scene_materials)
 {
-    const alpi_obj *o = b->obj;
+    alpi_obj *o = b->obj;
     uint32_t *primitives = NULL; // of each object so far
     ALP_TRY(check_corners(o));
     choose_origin(b);
@@ -332,8 +388,7 @@ static void note_materials(const alpi_obj *o)
     }
 }
 
-alp_result alpi_obj_fill_meshes(const alpi_obj *obj, const uint32_t *scene_materials,
-                                alp_scene *scene)
+alp_result alpi_obj_fill_meshes(alpi_obj *obj, const uint32_t *scene_materials, alp_scene *scene)
 {
     builder b = {.obj = obj, .scene = scene, .scratch = {.context = obj->context}};
     alp_result result = build(&b, scene_materials);

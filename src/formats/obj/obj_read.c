@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The statements of an OBJ: v, vt, vn, f, o, g, usemtl, mtllib; and the scene from them.
+// The statements of an OBJ: v, vt, vn, f, o, g, usemtl, mtllib.
 #include "formats/obj/obj.h"
 
+#include "base/decimal.h"
 #include "base/file.h"
-#include "base/hash.h"
 #include "base/memory.h"
-#include "formats/obj/obj_scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#define FILE_LIMIT ((uint64_t)4 << 30) // as glTF's
 enum { INDEX_LIMIT = 1 << 30 };
 
 /// While statements are read.
@@ -22,6 +20,7 @@ typedef struct parser {
     uint32_t material; // of the last usemtl
     uint32_t surface;  // of the next face, ALPI_NONE = to be found
     alpi_obj_names keys;
+    float largest_color; // component
     uint64_t lines_and_points, small_faces, unknown;
     char unknown_word[24];
 } parser;
@@ -64,6 +63,41 @@ static alp_result take_coordinate(parser *p, double *value)
     return ALP_OK;
 }
 
+/// Colours behind a position: three numbers, or four with an alpha, which is passed. One alone is a
+/// weight, and so is the first of a pair. Vertices before the first coloured one are white.
+static alp_result read_color(parser *p)
+{
+    alpi_obj *o = p->obj;
+    float values[4] = {0.0f};
+    int count = 0;
+    while (count < 4 && alpi_obj_more(&p->text)) {
+        const alpi_obj_word word = alpi_obj_take_word(&p->text);
+        const char *end = word.text + word.size;
+        if (alpi_decimal_float(word.text, end, &values[count]) != end || !isfinite(values[count])) {
+            break;
+        }
+        count++;
+    }
+    if (count < 3 && o->colors == NULL) {
+        return ALP_OK;
+    }
+    void *items = o->colors;
+    const size_t before = o->colors == NULL ? 0 : o->position_count - 1;
+    ALP_TRY(
+        alpi_grow(o->context, &items, &o->color_capacity, o->position_count, sizeof *o->colors));
+    o->colors = items;
+    for (size_t i = before; i < o->position_count; i++) {
+        o->colors[i][0] = o->colors[i][1] = o->colors[i][2] = 1.0f;
+    }
+    if (count >= 3) {
+        memcpy(o->colors[o->position_count - 1], values, sizeof *o->colors);
+    }
+    for (int k = 0; k < 3 && count >= 3; k++) {
+        p->largest_color = fmaxf(p->largest_color, values[k]);
+    }
+    return ALP_OK;
+}
+
 static alp_result read_position(parser *p)
 {
     alpi_obj *o = p->obj;
@@ -72,10 +106,10 @@ static alp_result read_position(parser *p)
                  "vertices"));
     o->positions = items;
     double *value = o->positions[o->position_count++];
-    for (int k = 0; k < 3; k++) { // what follows is a weight or a colour
+    for (int k = 0; k < 3; k++) {
         ALP_TRY(take_coordinate(p, &value[k]));
     }
-    return ALP_OK;
+    return o->colors != NULL || alpi_obj_more(&p->text) ? read_color(p) : ALP_OK;
 }
 
 static alp_result read_normal(parser *p)
@@ -109,8 +143,10 @@ static alp_result read_uv(parser *p)
 
 // --- faces ---------------------------------------------------------------------------------------
 
-/// One index at *at: from 1, or negative from the last one there is now.
-static const char *read_index(const char *at, const char *end, uint32_t count, uint32_t *index)
+/// One index at *at: from 1, or negative from the last one there is now. `optional`: where there is
+/// none yet, it becomes ALPI_OBJ_BEFORE_FIRST.
+static const char *read_index(const char *at, const char *end, uint32_t count, bool optional,
+                              uint32_t *index)
 {
     bool negative = at < end && *at == '-';
     uint64_t value = 0;
@@ -118,7 +154,14 @@ static const char *read_index(const char *at, const char *end, uint32_t count, u
     for (at = digits; at < end && (unsigned)(*at - '0') < 10; at++) {
         value = value <= INDEX_LIMIT ? value * 10 + (unsigned)(*at - '0') : value;
     }
-    if (at == digits || value == 0 || value > INDEX_LIMIT || (negative && value > count)) {
+    if (at == digits || value == 0 || value > INDEX_LIMIT) {
+        return NULL;
+    }
+    if (negative && optional && count == 0) {
+        *index = ALPI_OBJ_BEFORE_FIRST;
+        return at;
+    }
+    if (negative && value > count) {
         return NULL;
     }
     *index = (uint32_t)(negative ? count - value : value - 1);
@@ -150,7 +193,7 @@ static alp_result read_corner(parser *p)
     corner[1] = corner[2] = ALPI_NONE;
     for (int k = 0; at != NULL && k < 3; k++) {
         if (k != 1 || at == end || *at != '/') { // v//vn has no vt
-            at = read_index(at, end, counts[k], &corner[k]);
+            at = read_index(at, end, counts[k], k > 0, &corner[k]);
         }
         if (at == NULL || at == end) {
             break;
@@ -326,7 +369,24 @@ static void tell(const parser *p)
     }
 }
 
-alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t *bytes, size_t size,
+/// Colours of some programs end at 255.
+static void scale_colors(const parser *p)
+{
+    alpi_obj *o = p->obj;
+    if (o->colors == NULL || p->largest_color <= 1.0f) {
+        return;
+    }
+    for (uint32_t i = 0; i < o->position_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            o->colors[i][k] /= 255.0f;
+        }
+    }
+    alpi_note(o->context, "vertex-colors", o->path,
+              "colours of vertices are above 1: 255 is taken "
+              "as the largest");
+}
+
+alp_result alpi_obj_parse(alp_context *context, const char *path, const char *text, size_t size,
                           alpi_obj *obj)
 {
     *obj = (alpi_obj){.context = context,
@@ -334,18 +394,14 @@ alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t 
                       .objects = alpi_obj_names_create(context),
                       .material_names = alpi_obj_names_create(context),
                       .libraries = alpi_obj_names_create(context),
-                      .hash = alpi_hash_bytes(ALPI_HASH_START, bytes, size)};
-    const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // UTF-8's
-    parser p = {.obj = obj,
-                .text = {.context = context,
-                         .path = path,
-                         .at = (const char *)bytes + mark,
-                         .end = (const char *)bytes + size,
-                         .line = 1},
-                .object = file_stem(path),
-                .material = ALPI_NONE,
-                .surface = ALPI_NONE,
-                .keys = alpi_obj_names_create(context)};
+                      .materials = alpi_obj_names_create(context)};
+    parser p = {
+        .obj = obj,
+        .text = {.context = context, .path = path, .at = text, .end = text + size, .line = 1},
+        .object = file_stem(path),
+        .material = ALPI_NONE,
+        .surface = ALPI_NONE,
+        .keys = alpi_obj_names_create(context)};
     obj->folder = alpi_path_folder(context, path);
     alp_result result = obj->folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
     while (result == ALP_OK && alpi_obj_next_line(&p.text)) {
@@ -359,6 +415,7 @@ alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t 
                            path);
     }
     if (result == ALP_OK) {
+        scale_colors(&p);
         tell(&p);
     }
     return result;
@@ -366,70 +423,19 @@ alp_result alpi_obj_parse(alp_context *context, const char *path, const uint8_t 
 
 void alpi_obj_destroy(alpi_obj *obj)
 {
-    void *const arrays[] = {obj->folder,  obj->positions, obj->normals, obj->uvs,
-                            obj->corners, obj->faces,     obj->surfaces};
+    void *const arrays[] = {
+        obj->folder,  obj->positions, obj->colors,   obj->normals,        obj->uvs,
+        obj->corners, obj->faces,     obj->surfaces, obj->face_triangles, obj->triangle_corners};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         alpi_release(obj->context, arrays[i]);
     }
     alpi_obj_names_destroy(&obj->objects);
     alpi_obj_names_destroy(&obj->material_names);
     alpi_obj_names_destroy(&obj->libraries);
+    alpi_obj_names_destroy(&obj->materials);
+    for (uint32_t i = 0; i < obj->read_library_count; i++) {
+        alpi_obj_file_destroy(obj->context, &obj->read_libraries[i]);
+    }
+    alpi_release(obj->context, obj->read_libraries);
     *obj = (alpi_obj){.context = obj->context};
-}
-
-// --- the scene -----------------------------------------------------------------------------------
-
-static alp_result fill_scene(alpi_obj *obj, alp_scene *scene)
-{
-    uint32_t *materials = NULL;
-    alpi_obj_names images = alpi_obj_names_create(obj->context);
-    alp_result result = alpi_obj_read_materials(obj, scene, &images, &materials);
-    if (result == ALP_OK) {
-        result = alpi_obj_fill_meshes(obj, materials, scene);
-    }
-    if (result == ALP_OK) {
-        result = alpi_obj_read_images(obj, &images, scene);
-    }
-    if (result == ALP_OK) {
-        result = alpi_obj_keep_pictures(obj, &images, scene);
-    }
-    alpi_release(obj->context, materials);
-    alpi_obj_names_destroy(&images);
-    scene->input_hash = obj->hash;
-    return result == ALP_OK ? alpi_scene_finish(scene) : result;
-}
-
-alp_result alpi_obj_scene_from_bytes(alp_context *context, const char *path, const uint8_t *bytes,
-                                     size_t size, alp_scene **scene)
-{
-    alpi_obj obj;
-    alp_scene *made = NULL;
-    *scene = NULL;
-    alp_result result = alpi_obj_parse(context, path, bytes, size, &obj);
-    if (result == ALP_OK) {
-        result = alpi_scene_create(context, path, &made);
-    }
-    if (result == ALP_OK) {
-        made->unit_assumed = true; // an OBJ has nowhere to say it
-        result = fill_scene(&obj, made);
-    }
-    alpi_obj_destroy(&obj);
-    if (result != ALP_OK) {
-        alp_scene_destroy(made);
-        return result;
-    }
-    alpi_note(context, "unit", path, "an OBJ states no unit of length: metres are assumed");
-    *scene = made;
-    return ALP_OK;
-}
-
-alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene)
-{
-    uint8_t *bytes = NULL;
-    size_t size = 0;
-    *scene = NULL;
-    ALP_TRY(alpi_file_read(context, path, FILE_LIMIT, &bytes, &size));
-    alp_result result = alpi_obj_scene_from_bytes(context, path, bytes, size, scene);
-    alpi_release(context, bytes);
-    return result;
 }

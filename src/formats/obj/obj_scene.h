@@ -10,16 +10,16 @@
 /// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
 alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
-/// Reads an image of a scene from an OBJ again; NULL, with a warning, where it cannot be read. Of
-/// other scenes and of an OBJ without normal maps NULL.
-/// @return ALP_OK; OUT_OF_MEMORY
-alp_result alpi_obj_read_picture(const alp_scene *scene, uint32_t index, alp_image **image);
+/// Notes what the material libraries of a scene say that glTF has no place for, each kind once.
+/// Nothing for a scene of another format.
+void alpi_obj_note_losses(const alp_scene *scene);
 
-/// Writes any scene with the patch as OUT.obj, OUT.mtl and pictures beside them, in world space,
-/// triangles without area left out. Baked coordinates take the place of vt, and textures that need
-/// others are left out with a warning; with kept ones both stay. Occlusion: map_Ka, and map_Kd
-/// where that is free; light: Kd 0, Ke and map_Ke (other forms, values at vertices and packed
-/// images are UNSUPPORTED).
+/// Writes a scene with the patch as OUT.obj, OUT.mtl and pictures. A scene read from an OBJ is
+/// written as the text that was read, with coordinates and maps of the bake; any other in world
+/// space, triangles without area left out, its pictures as OUT.image.png. Baked coordinates take
+/// the place of vt, and textures that need others are left out with a warning; with kept ones both
+/// stay. Occlusion: map_Ka, and map_Kd where that is free; light: Kd 0, Ke and map_Ke (other forms,
+/// values at vertices and packed images are UNSUPPORTED).
 alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                 const char *path, alpi_file_set *files);
 /// Every file that it would make is checked before the long work.

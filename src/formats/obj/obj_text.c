@@ -96,6 +96,12 @@ static void skip_line(alpi_obj_text *t)
     t->line++;
 }
 
+void alpi_obj_end_line(alpi_obj_text *t)
+{
+    skip_line(t);
+    t->started = false;
+}
+
 bool alpi_obj_next_line(alpi_obj_text *t)
 {
     if (t->started) {

@@ -23,6 +23,8 @@ typedef struct alpi_obj_word {
 /// Passes what is left of the line that was begun, empty lines and comments. False at the end of
 /// the text.
 bool alpi_obj_next_line(alpi_obj_text *text);
+/// Passes the rest of the line that was begun and its end: `at` is where the next line begins.
+void alpi_obj_end_line(alpi_obj_text *text);
 /// Goes to the next word of the line. False where there is none (or a comment).
 bool alpi_obj_more(alpi_obj_text *text);
 /// Takes the next word of the line.

@@ -24,7 +24,7 @@ typedef struct rows {
 /// A surface while it is written.
 typedef struct part {
     const alpi_surface *surface;
-    rows positions, normals, uvs; // uvs: [3 · triangles]
+    rows positions, normals, uvs; // positions with colours, if there are any; uvs: [3 · triangles]
     bool has_normals;
     bool *has_uv; // [triangles]
 } part;
@@ -115,6 +115,28 @@ static bool find_uvs(const alpi_obj_writer *w, const alpi_surface *surface, uint
     return true;
 }
 
+static bool has_colors(const alp_scene *scene, const alpi_surface *s)
+{
+    bool white = true;
+    for (uint32_t v = 0; scene->colors != NULL && white && v < s->vertex_count; v++) {
+        const float *color = scene->colors[s->first_vertex + v];
+        white = color[0] == 1.0f && color[1] == 1.0f && color[2] == 1.0f;
+    }
+    return !white;
+}
+
+/// Colours as a screen shows them, which is how readers take them.
+static void fill_positions(const alp_scene *scene, const alpi_surface *s, rows *r)
+{
+    for (uint32_t v = 0; v < s->vertex_count; v++) {
+        float *row = r->values + (size_t)v * r->components;
+        memcpy(row, scene->positions[s->first_vertex + v], sizeof(float[3]));
+        for (uint32_t k = 3; k < r->components; k++) {
+            row[k] = alpi_linear_to_srgb(scene->colors[s->first_vertex + v][k - 3]);
+        }
+    }
+}
+
 static alp_result fill_part(const alpi_obj_writer *w, part *p)
 {
     const alp_scene *scene = w->scene;
@@ -125,7 +147,7 @@ static alp_result fill_part(const alpi_obj_writer *w, part *p)
                          scene->name, s->name, triangles);
     }
     p->has_normals = !s->normals_generated;
-    ALP_TRY(create_rows(w->context, vertices, 3, &p->positions));
+    ALP_TRY(create_rows(w->context, vertices, has_colors(scene, s) ? 6 : 3, &p->positions));
     ALP_TRY(create_rows(w->context, vertices, 3, &p->normals));
     ALP_TRY(create_rows(w->context, 3 * triangles, 2, &p->uvs));
     ALPI_TRY_NEW(w->context, p->has_uv, triangles);
@@ -133,7 +155,7 @@ static alp_result fill_part(const alpi_obj_writer *w, part *p)
     if (used == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    memcpy(p->positions.values, scene->positions[s->first_vertex], vertices * sizeof(float[3]));
+    fill_positions(scene, s, &p->positions);
     memcpy(p->normals.values, scene->normals[s->first_vertex], vertices * sizeof(float[3]));
     for (uint32_t i = 0; i < triangles; i++) {
         const uint32_t t = s->first_triangle + i;
@@ -168,20 +190,6 @@ static void destroy_part(alp_context *context, part *p)
 
 // --- text ----------------------------------------------------------------------------------------
 
-/// v counted from the bottom, with as many digits as bring v back by 1 − v.
-static void print_v(alpi_bytes *text, float v)
-{
-    const double turned = 1.0 - (double)v;
-    int digits = 9;
-    for (char number[40]; digits < 17; digits += 4) {
-        snprintf(number, sizeof number, "%.*g", digits, turned);
-        if ((float)(1.0 - strtod(number, NULL)) == v) { // with the sign that printed it
-            break;
-        }
-    }
-    alpi_bytes_number(text, turned, digits);
-}
-
 /// A coordinate far from the origin, with as many digits as bring the scene's back: the digits that
 /// its file had.
 static void print_far(alpi_bytes *text, float coordinate, double origin)
@@ -202,10 +210,12 @@ static void print_positions(alpi_bytes *text, const double origin[3], const rows
     for (uint32_t i = 0; i < r->different; i++) {
         const float *row = r->values + (size_t)r->firsts[i] * r->components;
         alpi_bytes_add(text, "v", 1);
-        for (uint32_t k = 0; k < 3; k++) {
+        for (uint32_t k = 0; k < r->components; k++) {
             alpi_bytes_add(text, " ", 1);
-            if (origin[k] != 0.0) {
+            if (k < 3 && origin[k] != 0.0) {
                 print_far(text, row[k], origin[k]);
+            } else if (k >= 3) {
+                alpi_bytes_number(text, (double)row[k], 6); // more than 16 bits
             } else {
                 alpi_bytes_float(text, row[k]);
             }
@@ -214,18 +224,21 @@ static void print_positions(alpi_bytes *text, const double origin[3], const rows
     }
 }
 
-static void print_rows(alpi_bytes *text, const char *what, const rows *r)
+static void print_uvs(alpi_bytes *text, const rows *r)
+{
+    for (uint32_t i = 0; i < r->different; i++) {
+        alpi_obj_print_uv(text, r->values + (size_t)r->firsts[i] * r->components);
+    }
+}
+
+static void print_normals(alpi_bytes *text, const rows *r)
 {
     for (uint32_t i = 0; i < r->different; i++) {
         const float *row = r->values + (size_t)r->firsts[i] * r->components;
-        alpi_bytes_add(text, what, strlen(what));
+        alpi_bytes_add(text, "vn", 2);
         for (uint32_t k = 0; k < r->components; k++) {
             alpi_bytes_add(text, " ", 1);
-            if (r->components == 2 && k == 1) {
-                print_v(text, row[k]);
-            } else {
-                alpi_bytes_float(text, row[k]);
-            }
+            alpi_bytes_float(text, row[k]);
         }
         alpi_bytes_add(text, "\n", 1);
     }
@@ -299,8 +312,8 @@ static alp_result write_part(alpi_obj_writer *w, part *p)
 {
     ALP_TRY(fill_part(w, p));
     print_positions(&w->obj, w->scene->origin, &p->positions);
-    print_rows(&w->obj, "vt", &p->uvs);
-    print_rows(&w->obj, "vn", &p->normals); // none where they were generated
+    print_uvs(&w->obj, &p->uvs);
+    print_normals(&w->obj, &p->normals); // none where they were generated
     for (uint32_t page = 0, next; page != ALPI_NONE; page = next) {
         ALP_TRY(print_triangles(w, p, page, &next));
     }
@@ -379,47 +392,70 @@ static bool sets_are_equal(const alp_scene *scene, uint32_t set)
            memcmp(scene->uvs[0], scene->uvs[set], scene->vertex_count * sizeof *scene->uvs[0]) == 0;
 }
 
-static alp_result run(alpi_obj_writer *w, const char *path, alpi_output_files *files)
+/// What a file begins with: who wrote it, how it was baked.
+static void print_header(alpi_obj_writer *w)
+{
+    alpi_bytes_print(&w->mtl, "# Alpenglow %s\n", alp_version());
+    alpi_bytes_print(&w->obj, "# Alpenglow %s\n", alp_version());
+    if (w->patch->extras_json != NULL) {
+        alpi_bytes_print(&w->obj, "# %s\n", w->patch->extras_json);
+    }
+}
+
+/// The text that the scene was read from, or all of the scene.
+static alp_result write_texts(alpi_obj_writer *w)
+{
+    const alpi_obj_source *source = alpi_obj_source_of(w->scene);
+    if (source != NULL && source->materials.count == w->scene->material_count) {
+        ALP_TRY(alpi_obj_patch(w, source));
+        return alpi_obj_patch_libraries(w, source);
+    }
+    alpi_bytes_print(&w->obj, "mtllib %s.mtl\n", alpi_path_name(w->stem));
+    alpi_obj_note_scene_losses(w->scene);
+    return write_surfaces(w);
+}
+
+static alp_result run(alpi_obj_writer *w, const char *path)
 {
     const uint32_t pages = w->patch->page_count;
     w->stem = stem_of(w->context, path);
     if (w->stem == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    ALPI_TRY_NEW(w->context, w->image_used, w->scene->image_count);
+    ALPI_TRY_NEW(w->context, w->images, w->scene->image_count);
+    for (int kind = 0; kind < ALPI_OBJ_PICTURE_COUNT; kind++) {
+        ALPI_TRY_NEW(w->context, w->image_used[kind], w->scene->image_count);
+    }
     ALPI_TRY_NEW(w->context, w->texture_lost, w->scene->material_count);
     ALPI_TRY_NEW(w->context, w->page_used, pages);
     ALPI_TRY_NEW(w->context, w->light_used, pages);
     w->kept_is_first = sets_are_equal(w->scene, w->patch->kept_uv_set);
-    alpi_bytes_print(&w->mtl, "# Alpenglow %s\n", alp_version());
-    alpi_bytes_print(&w->obj, "# Alpenglow %s\n", alp_version());
-    if (w->patch->extras_json != NULL) {
-        alpi_bytes_print(&w->obj, "# %s\n", w->patch->extras_json);
-    }
-    alpi_bytes_print(&w->obj, "mtllib %s.mtl\n", alpi_path_name(w->stem));
-    ALP_TRY(write_surfaces(w));
-    ALP_TRY(alpi_obj_add_images(w, files));
-    ALP_TRY(add_text(w, ".mtl", &w->mtl, files));
-    return alpi_output_files_add(files, (alpi_output_file){alpi_copy_string(w->context, path),
-                                                           w->obj.bytes, w->obj.size, NULL});
+    print_header(w);
+    ALP_TRY(write_texts(w));
+    ALP_TRY(alpi_obj_add_images(w, w->files));
+    ALP_TRY(add_text(w, ".mtl", &w->mtl, w->files));
+    ALP_TRY(alpi_output_files_add(w->files, (alpi_output_file){alpi_copy_string(w->context, path),
+                                                               w->obj.bytes, w->obj.size, NULL}));
+    return alpi_output_files_make_folders(w->files);
 }
 
 alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *patch,
                                 const char *path, alpi_file_set *set)
 {
     alp_context *context = scene->context;
+    alpi_output_files files = {.context = context};
     alpi_obj_writer w = {.context = context,
                          .scene = scene,
                          .patch = patch,
                          .obj = alpi_bytes_create(context),
                          .mtl = alpi_bytes_create(context),
                          .uses = alpi_obj_names_create(context),
-                         .names = alpi_obj_names_create(context)};
-    alpi_output_files files = {.context = context};
+                         .names = alpi_obj_names_create(context),
+                         .files = &files};
     ALP_TRY(check_patch(scene, patch));
     ALP_TRY(check_name(context, path));
     ALP_TRY(alpi_file_check_writable(context, path, set->overwrite));
-    alp_result result = run(&w, path, &files);
+    alp_result result = run(&w, path);
     if (result == ALP_OK) {
         result = alpi_output_files_add_to(&files, set);
     }
@@ -428,7 +464,13 @@ alp_result alpi_obj_add_patched(const alp_scene *scene, const alpi_mesh_patch *p
     alpi_bytes_destroy(&w.mtl);
     alpi_obj_names_destroy(&w.uses);
     alpi_obj_names_destroy(&w.names);
-    alpi_release(context, w.image_used);
+    for (int kind = 0; kind < ALPI_OBJ_PICTURE_COUNT; kind++) {
+        alpi_release(context, w.image_used[kind]);
+    }
+    for (uint32_t i = 0; w.images != NULL && i < scene->image_count; i++) {
+        alp_image_destroy(w.images[i]);
+    }
+    alpi_release(context, w.images);
     alpi_release(context, w.texture_lost);
     alpi_release(context, w.page_used);
     alpi_release(context, w.light_used);
@@ -460,7 +502,7 @@ static alp_result check_files(const alp_scene *scene, const alpi_output_images *
                            alpi_obj_image_path(context, stem, "light", p, images->light_ending),
                            overwrite));
     }
-    for (uint32_t i = 0; i < scene->image_count; i++) {
+    for (uint32_t i = 0; alpi_obj_source_of(scene) == NULL && i < scene->image_count; i++) {
         if (scene->images[i] != NULL) { // it may be written
             ALP_TRY(check_file(context, alpi_obj_image_path(context, stem, "image", i, ".png"),
                                overwrite));
@@ -479,5 +521,5 @@ alp_result alpi_obj_check_outputs(const alp_scene *scene, const alpi_output_imag
     alp_result result =
         stem == NULL ? ALP_ERROR_OUT_OF_MEMORY : check_files(scene, images, stem, overwrite);
     alpi_release(context, stem);
-    return result;
+    return result == ALP_OK ? alpi_obj_check_copies(scene, path, overwrite) : result;
 }

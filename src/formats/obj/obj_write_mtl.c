@@ -48,27 +48,23 @@ static bool has_coordinates(const alpi_obj_writer *w, alpi_obj_use use, const al
            (w->kept_is_first && texture->uv_set + set == w->patch->kept_uv_set);
 }
 
-/// The statement of a texture where it can be written. @return whether it was
-static bool print_texture(alpi_obj_writer *w, alpi_obj_use use, const char *what,
-                          const alpi_texture *texture)
+static const char *const picture_kinds[] = {[ALPI_OBJ_PICTURE_WHOLE] = "image",
+                                            [ALPI_OBJ_PICTURE_ROUGHNESS] = "roughness",
+                                            [ALPI_OBJ_PICTURE_METALNESS] = "metalness"};
+
+/// A picture, which is opened at its first use; NULL where it cannot be written.
+static const alp_image *open_image(alpi_obj_writer *w, uint32_t index)
 {
-    if (texture->image == ALPI_NONE || texture->image >= w->scene->image_count) {
-        return false;
-    }
-    const alp_image *image = w->scene->images[texture->image];
-    if (image == NULL || image->info.component != ALP_COMPONENT_U8 || texture->rotation != 0.0f ||
-        texture->wrap_u == ALPI_WRAP_MIRROR || texture->wrap_v == ALPI_WRAP_MIRROR ||
-        !has_coordinates(w, use, texture)) {
-        w->texture_lost[use.material] = true;
-        return false;
-    }
-    char *path = alpi_obj_image_path(w->context, w->stem, "image", texture->image, ".png");
-    if (path == NULL) {
+    if (w->images[index] == NULL &&
+        alpi_scene_open_image(w->scene, index, &w->images[index]) != ALP_OK) {
         w->mtl.failed = true;
-        return false;
     }
-    w->image_used[texture->image] = true;
-    alpi_bytes_print(&w->mtl, "%s ", what);
+    const alp_image *image = w->images[index];
+    return image != NULL && image->info.component == ALP_COMPONENT_U8 ? image : NULL;
+}
+
+static void print_place(alpi_obj_writer *w, const alpi_texture *texture)
+{
     if (texture->scale[0] != 1.0f || texture->scale[1] != 1.0f || texture->offset[0] != 0.0f ||
         texture->offset[1] != 0.0f) { // back to v from the bottom
         const float values[4] = {texture->scale[0], texture->scale[1], texture->offset[0],
@@ -79,14 +75,43 @@ static bool print_texture(alpi_obj_writer *w, alpi_obj_use use, const char *what
             alpi_bytes_print(&w->mtl, k == 3 ? " 0 " : " ");
         }
     }
-    alpi_bytes_print(&w->mtl, "%s%s\n", texture->wrap_u == ALPI_WRAP_CLAMP ? "-clamp on " : "",
-                     alpi_path_name(path));
+    alpi_bytes_print(&w->mtl, "%s", texture->wrap_u == ALPI_WRAP_CLAMP ? "-clamp on " : "");
+}
+
+bool alpi_obj_print_texture(alpi_obj_writer *w, alpi_obj_use use, const char *what,
+                            const alpi_texture *texture, alpi_obj_picture picture)
+{
+    if (texture->image == ALPI_NONE || texture->image >= w->scene->image_count) {
+        return false;
+    }
+    if (open_image(w, texture->image) == NULL || texture->rotation != 0.0f ||
+        texture->wrap_u == ALPI_WRAP_MIRROR || texture->wrap_v == ALPI_WRAP_MIRROR ||
+        !has_coordinates(w, use, texture)) {
+        w->texture_lost[use.material] = true;
+        return false;
+    }
+    char *path =
+        alpi_obj_image_path(w->context, w->stem, picture_kinds[picture], texture->image, ".png");
+    if (path == NULL) {
+        w->mtl.failed = true;
+        return false;
+    }
+    w->image_used[picture][texture->image] = true;
+    alpi_bytes_print(&w->mtl, "%s ", what);
+    print_place(w, texture);
+    alpi_bytes_print(&w->mtl, "%s\n", alpi_path_name(path));
     alpi_release(w->context, path);
     return true;
 }
 
-static void print_page(alpi_obj_writer *w, const char *what, const char *kind, uint32_t page,
-                       const char *ending)
+static bool print_texture(alpi_obj_writer *w, alpi_obj_use use, const char *what,
+                          const alpi_texture *texture)
+{
+    return alpi_obj_print_texture(w, use, what, texture, ALPI_OBJ_PICTURE_WHOLE);
+}
+
+void alpi_obj_print_page(alpi_obj_writer *w, const char *what, const char *kind, uint32_t page,
+                         const char *ending)
 {
     char *path = alpi_obj_image_path(w->context, w->stem, kind, page, ending);
     w->mtl.failed = w->mtl.failed || path == NULL;
@@ -98,7 +123,7 @@ static void print_page(alpi_obj_writer *w, const char *what, const char *kind, u
 
 // --- materials -----------------------------------------------------------------------------------
 
-static void print_color(alpi_obj_writer *w, const char *what, const float color[3])
+void alpi_obj_print_color(alpi_obj_writer *w, const char *what, const float color[3])
 {
     alpi_bytes_print(&w->mtl, "%s", what);
     for (int k = 0; k < 3; k++) {
@@ -121,36 +146,33 @@ static void print_colors(alpi_obj_writer *w, alpi_obj_use use, const alpi_materi
         const uint32_t index = use.material == ALPI_NONE ? w->scene->material_count : use.material;
         emission[0] = emission[1] = emission[2] = w->patch->light->scales[index];
     }
-    print_color(w, "Ka", (const float[3]){1.0f, 1.0f, 1.0f});
-    print_color(w, "Kd", color);
+    alpi_obj_print_color(w, "Ka", (const float[3]){1.0f, 1.0f, 1.0f});
+    alpi_obj_print_color(w, "Kd", color);
     if (emission[0] > 0.0f || emission[1] > 0.0f || emission[2] > 0.0f) {
-        print_color(w, "Ke", emission);
+        alpi_obj_print_color(w, "Ke", emission);
     }
     alpi_bytes_print(&w->mtl, "d ");
     alpi_bytes_float(&w->mtl, m->alpha_mode == ALPI_ALPHA_BLEND ? m->base_color[3] : 1.0f);
-    if (lit || m->shininess < 0.0f) {
-        alpi_bytes_print(&w->mtl, "\nillum 1\n");
-        return;
-    }
-    alpi_bytes_print(&w->mtl, "\nillum 2\n");
-    print_color(w, "Ks", m->specular);
-    alpi_bytes_print(&w->mtl, "Ns ");
-    alpi_bytes_float(&w->mtl, m->shininess);
     alpi_bytes_print(&w->mtl, "\n");
+    if (lit) {
+        alpi_bytes_print(&w->mtl, "illum 1\n");
+    } else {
+        alpi_obj_print_shine(w, use, m);
+    }
 }
 
 static void print_maps(alpi_obj_writer *w, alpi_obj_use use, const alpi_material *m)
 {
     const bool lit = alpi_obj_is_lit(w, use), occluded = alpi_obj_is_occluded(w, use);
     if (lit) {
-        print_page(w, "map_Ke", "light", use.page, w->patch->light->ending);
+        alpi_obj_print_page(w, "map_Ke", "light", use.page, w->patch->light->ending);
         w->light_used[use.page] = true;
     } else {
         print_texture(w, use, "map_Ke", &m->emission_texture);
     }
     if (occluded) {
         alpi_bytes_print(&w->mtl, "alpenglow_occlusion map_Ka\n");
-        print_page(w, "map_Ka", "ao", use.page, ".png");
+        alpi_obj_print_page(w, "map_Ka", "ao", use.page, ".png");
         w->page_used[use.page] = true;
     } else if (m->occlusion_texture.image != ALPI_NONE && use.page == ALPI_NONE) {
         alpi_bytes_print(&w->mtl, "alpenglow_occlusion map_Ka\n");
@@ -160,7 +182,7 @@ static void print_maps(alpi_obj_writer *w, alpi_obj_use use, const alpi_material
     if (textured && m->alpha_mode == ALPI_ALPHA_MASK) {
         print_texture(w, use, "map_d", &m->base_color_texture);
     } else if (occluded && !textured && !lit) {
-        print_page(w, "map_Kd", "ao", use.page, ".png");
+        alpi_obj_print_page(w, "map_Kd", "ao", use.page, ".png");
     }
 }
 
@@ -194,6 +216,25 @@ static alp_result choose_name(alpi_obj_writer *w, alpi_obj_use use, const alpi_m
     return failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
+void alpi_obj_print_material(alpi_obj_writer *w, alpi_obj_use use)
+{
+    alpi_material none = alpi_material_default();
+    if (w->scene->colors == NULL) { // else viewers multiply by the colours of vertices
+        none.base_color[0] = none.base_color[1] = none.base_color[2] = 0.5f;
+    }
+    const alpi_material *m = use.material == ALPI_NONE ? &none : &w->scene->materials[use.material];
+    print_colors(w, use, m);
+    print_maps(w, use, m);
+}
+
+void alpi_obj_warn_of_textures(alpi_obj_writer *w, const alpi_material *material)
+{
+    alpi_warn(w->context, "texture-lost", material->name,
+              "an OBJ has one set of texture coordinates, which the bake takes, and no turned "
+              "or mirrored textures: one of this material is left out; keep the scene's own "
+              "set (--atlas keep) or write .glb");
+}
+
 alp_result alpi_obj_write_material(alpi_obj_writer *w, alpi_obj_use use, uint32_t *number)
 {
     bool added;
@@ -201,24 +242,58 @@ alp_result alpi_obj_write_material(alpi_obj_writer *w, alpi_obj_use use, uint32_
     if (!added) {
         return ALP_OK;
     }
-    alpi_material none = alpi_material_default();
-    none.base_color[0] = none.base_color[1] = none.base_color[2] = 0.5f;
-    const alpi_material *m = use.material == ALPI_NONE ? &none : &w->scene->materials[use.material];
+    const alpi_material *m = use.material == ALPI_NONE ? NULL : &w->scene->materials[use.material];
     ALP_TRY(choose_name(w, use, m, *number));
-    const bool lost = use.material != ALPI_NONE && w->texture_lost[use.material];
+    const bool lost = m != NULL && w->texture_lost[use.material];
     alpi_bytes_print(&w->mtl, "\nnewmtl %s\n", alpi_obj_name(&w->names, *number));
-    print_colors(w, use, m);
-    print_maps(w, use, m);
-    if (use.material != ALPI_NONE && w->texture_lost[use.material] && !lost) {
-        alpi_warn(w->context, "texture-lost", m->name,
-                  "an OBJ has one set of texture coordinates, which the bake takes, and no turned "
-                  "or mirrored textures: one of this material is left out; keep the scene's own "
-                  "set (--atlas keep) or write .glb");
+    alpi_obj_print_material(w, use);
+    if (m != NULL && w->texture_lost[use.material] && !lost) {
+        alpi_obj_warn_of_textures(w, m);
     }
     return w->mtl.failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
 // --- pictures ------------------------------------------------------------------------------------
+
+/// One channel of a picture.
+static alp_result take_channel(alp_context *context, const alp_image *from, int channel,
+                               alp_image **image)
+{
+    alp_image_info info = from->info;
+    info.channels = 1;
+    ALP_TRY(alp_image_create(context, info, image));
+    uint8_t *texel = (*image)->pixels;
+    for (uint32_t y = 0; y < info.height; y++) {
+        for (uint32_t x = 0; x < info.width; x++) {
+            float rgba[4];
+            alpi_image_pixel(from, x, y, rgba);
+            *texel++ = (uint8_t)(rgba[channel] * 255.0f + 0.5f);
+        }
+    }
+    return ALP_OK;
+}
+
+static alp_result add_picture(alpi_obj_writer *w, alpi_output_files *files, uint32_t index,
+                              int kind)
+{
+    uint8_t *png = NULL;
+    size_t size = 0;
+    alp_image *channel = NULL;
+    const alp_image *image = w->images[index];
+    alp_result result = ALP_OK;
+    if (kind != ALPI_OBJ_PICTURE_WHOLE) {
+        result =
+            take_channel(w->context, image, kind == ALPI_OBJ_PICTURE_ROUGHNESS ? 1 : 2, &channel);
+        image = channel;
+    }
+    if (result == ALP_OK) {
+        result = alpi_png_encode(image, &png, &size);
+    }
+    alp_image_destroy(channel);
+    ALP_TRY(result);
+    char *path = alpi_obj_image_path(w->context, w->stem, picture_kinds[kind], index, ".png");
+    return alpi_output_files_add(files, (alpi_output_file){path, png, size, png});
+}
 
 alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_output_files *files)
 {
@@ -238,14 +313,10 @@ alp_result alpi_obj_add_images(alpi_obj_writer *w, alpi_output_files *files)
         }
     }
     for (uint32_t i = 0; i < w->scene->image_count; i++) {
-        if (w->image_used[i]) {
-            uint8_t *png = NULL;
-            size_t size = 0;
-            ALP_TRY(alpi_png_encode(w->scene->images[i], &png, &size));
-            ALP_TRY(alpi_output_files_add(
-                files,
-                (alpi_output_file){alpi_obj_image_path(w->context, w->stem, "image", i, ".png"),
-                                   png, size, png}));
+        for (int kind = 0; kind < ALPI_OBJ_PICTURE_COUNT; kind++) {
+            if (w->image_used[kind][i]) {
+                ALP_TRY(add_picture(w, files, i, kind));
+            }
         }
     }
     return ALP_OK;

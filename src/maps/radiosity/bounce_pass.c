@@ -129,13 +129,13 @@ static double left_over(const alpi_solver *s)
 }
 
 /// Whether another pass would exceed the limit of rays. A few passes are always traced.
-/// @param last_rays rays of the last pass
-static bool exceeds_ray_limit(const alpi_solver *s, uint64_t last_rays)
+/// @param rays_before rays before the last pass
+static bool exceeds_ray_limit(const alpi_solver *s, uint64_t rays_before)
 {
     enum { FEWEST_PASSES = 6 };
     const alpi_radiosity *r = s->r;
     return r->options.ray_limit > 0.0 && r->passes >= FEWEST_PASSES &&
-           (double)r->rays + (double)last_rays > r->options.ray_limit;
+           (double)r->rays + (double)(r->rays - rays_before) > r->options.ray_limit;
 }
 
 /// Accelerates passes that trace their rays again because of panes, a property of the scene and not
@@ -160,15 +160,14 @@ alp_result alpi_solver_bounce(alpi_solver *solver)
     const bool traced_again = !alpi_gather_meets_cells(&solver->from);
     ALP_TRY(measure_first_light(solver));
     ALP_TRY(choose_acceleration(solver, traced_again));
-    uint64_t last_rays = 0;
+    uint64_t rays_before = r->rays;
     while (r->passes < limit && left_over(solver) > r->options.tolerance) {
-        if (traced_again && exceeds_ray_limit(solver, last_rays)) {
+        if (traced_again && exceeds_ray_limit(solver, rays_before)) {
             r->missing = left_over(solver);
             break;
         }
-        const uint64_t rays = r->rays;
+        rays_before = r->rays;
         ALP_TRY(run_pass(solver));
-        last_rays = r->rays - rays;
     }
     return ALP_OK;
 }

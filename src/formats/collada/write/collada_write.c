@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/collada/write/collada_write.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf16.h"
 
 #include <string.h>
 

@@ -208,12 +208,13 @@ TEST_WITH_CONTEXT(conversions, 1)
                                                      TEST_COLLADA_INPUT "<p>0 1 2</p></triangles>")
                                TEST_COLLADA_SHOWN,
                            &scene));
-    ASSERT_NEAR(scene->materials[0].specular[1], 0.25, 0.0);
-    ASSERT_NEAR(scene->materials[0].shininess, 6.0, 0.0);
+    assert_true(scene->materials[0].shine.has_specular);
+    ASSERT_NEAR(scene->materials[0].shine.specular[1], 0.25, 0.0);
+    ASSERT_NEAR(scene->materials[0].shine.roughness, 0.70710678, 1e-6); // (2 / 8)^(1/4)
     test_log_clear();
     char *text = write_and_read(scene, test_folder(), "a.gltf", "a.gltf");
-    assert_non_null(strstr(text, "\"roughnessFactor\":0.7071")); // (2 / 8)^(1/4)
-    assert_non_null(strstr(text, "\"specularColorFactor\":[1,0.5,0]"));
+    assert_non_null(strstr(text, "\"roughnessFactor\":0.7071"));
+    assert_non_null(strstr(text, "\"specularColorFactor\":[0.5,0.25,0]"));
     assert_non_null(strstr(text, "\"KHR_materials_specular\""));
     alpi_release(context, text);
     assert_non_null(strstr(test_log_text(), "bump map of heights: 1"));
@@ -221,7 +222,7 @@ TEST_WITH_CONTEXT(conversions, 1)
     assert_non_null(strstr(test_log_text(), "animations: 1"));
     assert_null(strstr(test_log_text(), "or gloss"));
     text = write_and_read(scene, test_folder(), "a.obj", "a.mtl");
-    assert_non_null(strstr(text, "Ks 0.5 0.25 0\nNs 6\n"));
+    assert_non_null(strstr(text, "Ks 0.5 0.25 0\nNs 6\nPr 0.7071"));
     alpi_release(context, text);
     test_log_clear();
     text = write_and_read(scene, test_folder(), "a.dae", "a.dae");

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formats/collada/collada_numbers.h"
 #include "formats/collada/collada_read.h"
+#include "formats/text/utf16.h"
 
 #include <math.h>
 #include <stdio.h>

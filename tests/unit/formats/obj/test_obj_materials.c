@@ -257,7 +257,7 @@ TEST_WITH_CONTEXT(normal_maps_are_read_when_they_are_asked_for, 1)
     alp_scene *scene = read_with(
         context, folder,
         "newmtl a\nmap_Kd a.png\nnorm -s 2 2 1 n.png\nnewmtl b\nmap_Kd a.png\nmap_Bump n.png\n"
-        "newmtl c\nnorm absent.png\nnewmtl d\nnorm ../n.png\nnewmtl e\nnorm a.png\n",
+        "newmtl c\nnorm absent.png\nnewmtl d\nnorm ../gone.png\nnewmtl e\nnorm a.png\n",
         "mtllib a.mtl\nusemtl a\n" TRIANGLE "usemtl b\nf 1/1 2/2 3/2\nusemtl c\nf 1/1 2/2 3/2\n"
         "usemtl d\nf 1/1 2/2 3/2\nusemtl e\nf 1/1 2/2 3/2\n");
     assert_false(test_log_has("image"));

@@ -3,6 +3,8 @@
 #include "test_gltf.h"
 #include "test_obj.h"
 
+#include "formats/obj/obj.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -179,6 +181,86 @@ TEST_WITH_CONTEXT(left_out, 1)
     alp_scene_destroy(scene);
 }
 
+/// Faces that name coordinates or normals of which the file has none are read without.
+TEST_WITH_CONTEXT(missing_data, 1)
+{
+    static const struct {
+        const char *text, *words;
+    } cases[] = {
+        {SQUARE "vn 0 1 0\nf 1/1/1 2/2/1 3/3/1\n",
+         "texture coordinates (vt), of which the file has none: 1;"},
+        {SQUARE "vt 0 0\nf 1/1/1 2/1/2 3/1/3\nf 1/1/7 3 4\n",
+         "normals (vn), of which the file has none: 2;"},
+        {SQUARE "f 1/-1 2/-2 3/-3\n", "texture coordinates (vt), of which the file has none: 1;"},
+        {SQUARE "f 1//-1 2//-1 3//-1\n", "normals (vn), of which the file has none: 1;"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        test_log_clear();
+        alp_scene *scene = test_obj_scene(context, cases[i].text);
+        assert_non_null(strstr(test_log_text(), cases[i].words));
+        ASSERT_NEAR(scene->area, i == 1 ? 1.0 : 0.5, 1e-12);
+        assert_int_equal(scene->uvs[0] != NULL, i == 1);
+        ASSERT_NEAR(fabsf(scene->normals[0][i == 0 ? 1 : 2]), 1.0, 0.0);
+        alp_scene_destroy(scene);
+    }
+}
+
+/// Three numbers behind a position are a colour for screens; of four the last is an alpha.
+TEST_WITH_CONTEXT(colours_of_vertices, 1)
+{
+    test_log_clear();
+    alp_scene *scene = test_obj_scene(
+        context, "v 0 0 0 0.5\nv 1 0 0 1 0.5 0\nv 0 1 0 0.25 0.5 1 0.1\nv 0 0 1 nan\nf 1 2 3\n"
+                 "f 1 2 4\n");
+    const float wanted[4][3] = {
+        {1, 1, 1}, {1, 0.21404114f, 0}, {0.05087609f, 0.21404114f, 1}, {1, 1, 1}};
+    assert_non_null(scene->colors);
+    for (uint32_t t = 0; t < 2; t++) {
+        for (int k = 0; k < 3; k++) {
+            const float *color = scene->colors[scene->triangles[t][k]];
+            const float *want = wanted[t == 1 && k == 2 ? 3 : k];
+            for (int c = 0; c < 3; c++) {
+                ASSERT_NEAR(color[c], want[c], 1e-6); // IEC 61966-2-1
+            }
+            ASSERT_NEAR(color[3], 1.0, 0.0);
+        }
+    }
+    // without a material the colour is the albedo
+    ASSERT_NEAR(alpi_surface_albedo(scene, 0, 1.0f, 0.0f).y, 0.21404114f, 1e-6);
+    assert_false(test_log_has("vertex-colors"));
+    alp_scene_destroy(scene);
+    scene = test_obj_scene(context, "v 0 0 0 255 0 51\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n");
+    ASSERT_NEAR(scene->colors[0][0], 1.0, 1e-6);
+    ASSERT_NEAR(scene->colors[0][2], 0.03310477f, 1e-6); // 0.2
+    assert_true(test_log_has("vertex-colors"));
+    alp_scene_destroy(scene);
+    scene = test_obj_scene(context, SQUARE "f 1 2 3\n");
+    assert_null(scene->colors);
+    alp_scene_destroy(scene);
+}
+
+/// UTF-16 with a mark or without one, of both orders.
+TEST_WITH_CONTEXT(wide_texts, 1)
+{
+    static const char text[] = "o caf\xc3\xa9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    static const uint16_t name[] = {'o', ' ', 'c', 'a', 'f', 0xe9};
+    for (int i = 0; i < 4; i++) {
+        uint8_t wide[256];
+        size_t size = 0;
+        const bool big = i & 1, marked = (i & 2) != 0;
+        for (size_t k = marked ? 0 : 1; k <= sizeof text - 2; k++) { // 0: the mark
+            const size_t at = k - 1;
+            const uint16_t unit = k == 0 ? 0xfeff : at < 6 ? name[at] : (uint16_t)text[at + 1];
+            wide[size++] = (uint8_t)(big ? unit >> 8 : unit);
+            wide[size++] = (uint8_t)(big ? unit : unit >> 8);
+        }
+        alp_scene *scene = NULL;
+        ASSERT_OK(context, alpi_obj_scene_from_bytes(context, "wide.obj", wide, size, &scene));
+        ASSERT_NEAR(scene->area, 0.5, 0.0);
+        assert_string_equal(scene->surfaces[0].name, "caf\xc3\xa9");
+        alp_scene_destroy(scene);
+    }
+}
+
 TEST_WITH_CONTEXT(refused, 1)
 {
     static const struct {
@@ -203,8 +285,9 @@ TEST_WITH_CONTEXT(refused, 1)
         {SQUARE "f 1 2 5\n", "line 5: f: vertex 5 of 4"},
         {SQUARE "f 0 1 2\n", "line 5: f: \"0\" is no corner"},
         {SQUARE "f 1 2 -5\n", "line 5: f: \"-5\" is no corner"},
-        {SQUARE "f 1/1 2/1 3/1\n", "line 5: f: texture coordinate 1 of 0"},
-        {SQUARE "f 1//1 2//1 3//2\n", "line 5: f: normal 1 of 0"},
+        {SQUARE "vt 0 0\nf 1/1 2/1 3/2\n", "line 6: f: texture coordinate 2 of 1"},
+        {SQUARE "vn 0 0 1\nf 1//1 2//1 3//2\n", "line 6: f: normal 2 of 1"},
+        {SQUARE "f 1/-1 2/-1 3/-1\nvt 0 0\n", "line 5: f: a texture coordinate before the first"},
         {SQUARE "f 1/0 2 3\n", "\"1/0\" is no corner"},
         {SQUARE "f 1/2/3/4 2 3\n", "\"1/2/3/4\" is no corner"},
         {SQUARE "f a b c\n", "\"a\" is no corner"},

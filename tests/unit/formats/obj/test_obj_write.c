@@ -47,10 +47,19 @@ static uint8_t *make_png(alp_context *context, uint8_t value, size_t *size)
     return bytes;
 }
 
+/// As a scene that came from no OBJ: all of it is written.
+static void forget_source(alp_scene *scene)
+{
+    alpi_attachment *kept = &scene->attachments[ALPI_ATTACHMENT_OBJ];
+    kept->destroy(scene->context, kept->data);
+    *kept = (alpi_attachment){0};
+}
+
 static void start(bake *b, const char *text)
 {
     *b = (bake){.context = test_context(1), .folder = test_folder()};
     ASSERT_OK(b->context, test_obj_read(b->context, b->folder, text, &b->scene));
+    forget_source(b->scene);
     const uint32_t count = b->scene->triangle_count;
     uint64_t seed = 5;
     b->uvs = alpi_allocate(b->context, count, sizeof *b->uvs);
@@ -200,6 +209,7 @@ static void start_with_library(bake *b)
     write_library(b->folder);
     alp_scene_destroy(b->scene);
     ASSERT_OK(b->context, test_obj_read(b->context, b->folder, FOUR_TRIANGLES, &b->scene));
+    forget_source(b->scene);
 }
 
 TEST(materials_and_pages)
@@ -383,6 +393,7 @@ TEST(failing_allocations)
         alp_scene *scene = NULL;
         left = 1000000;
         ASSERT_OK(context, test_obj_read(context, b.folder, FOUR_TRIANGLES, &scene));
+        forget_source(scene);
         left = allowed;
         result = alpi_scene_write_patched(scene, &b.patch, out_path(&b), false);
         assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);

@@ -153,7 +153,7 @@ TEST(known_numbers_follow)
     const alpi_gltf_document *old = quad_old(&bake);
     assert_true(alpi_json_value(old->text, 0, old->text_size, &root));
     assert_true(alpi_json_at(old->text, root, "bufferViews/5/byteLength", &span));
-    assert_int_equal(length, atoi(old->text + span.begin));
+    assert_int_equal(length, strtol(old->text + span.begin, NULL, 10));
     assert_int_not_equal(view, 5); // views before it went
     quad_close(&bake);
 }
