@@ -4,6 +4,7 @@
 // the command, or where the option exists in the command alone.
 #include "bake_options.h"
 
+#include "bake_defaults.h"
 #include "lighting.h"
 #include "output.h"
 
@@ -60,59 +61,31 @@ static int check_vertex_options(const option_value *values)
                                of_maps[i].name);
         }
     }
-    if (at_vertices && !values[OPTION_OUTPUT].given) {
-        return usage_error(COMMAND_BAKE, "no output; give -o OUT.glb or -o OUT.gltf");
-    }
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
     }
     return EXIT_DONE;
 }
 
-typedef struct named_option {
-    option_id id;
-    const char *name;
-} named_option;
-
-/// The first of these options that is given, or NULL.
-static const char *find_given(const option_value *values, const named_option *named, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        if (values[named[i].id].given) {
-            return named[i].name;
-        }
-    }
-    return NULL;
-}
-
 /// Options of light need light, those of occlusion need occlusion.
 static int check_light(const option_value *values, bool light, bool occlusion)
 {
-    static const named_option of_light[] = {
-        {OPTION_SAMPLES, "--samples"},   {OPTION_BOUNCES, "--bounces"},
-        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
-        {OPTION_EMITTERS, "--emitters"}, {OPTION_DIRECT, "--direct"},
-        {OPTION_LAYERS, "--layers"},     {OPTION_DENOISE, "--denoise"},
-        {OPTION_SKY, "--sky"},           {OPTION_SKY_TURN, "--sky-turn"},
-        {OPTION_SUN, "--sun"},           {OPTION_SKY_STRENGTH, "--sky-strength"},
-        {OPTION_SUN_SIZE, "--sun-size"}, {OPTION_LAMP, "--lamp"},
-        {OPTION_SPOT, "--spot"}};
-    static const named_option of_occlusion[] = {
-        {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
-        {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
-        {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
     static const named_option not_of_light[] = {{OPTION_AO_SELF, "--ao-self"},
                                                 {OPTION_OCCLUDERS, "--occluders"}};
-    const char *name = find_given(values, of_light, sizeof of_light / sizeof *of_light);
-    if (name != NULL && !light) {
-        return usage_error(COMMAND_BAKE, "%s: needs --maps light", name);
+    const char *name = bake_light_option(values);
+    if (name == NULL && values[OPTION_SAMPLES].given) {
+        name = "--samples";
     }
-    name = find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
+    if (name != NULL && !light) {
+        return usage_error(COMMAND_BAKE, "%s: needs --maps light%s", name,
+                           values[OPTION_MAPS].given ? "" : "; occlusion has --ao-samples");
+    }
+    name = bake_occlusion_option(values);
     if (name != NULL && !occlusion) {
         return usage_error(COMMAND_BAKE, "%s: applies to occlusion only; for light give --samples",
                            name);
     }
-    name = find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
+    name = option_find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
     if (name != NULL && light) {
         return usage_error(COMMAND_BAKE, "--maps light: is baked for the whole scene; leave out %s",
                            name);
@@ -180,8 +153,9 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
     }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
         strcmp(values[OPTION_DIRECT].text, "off") == 0) {
-        return usage_error(COMMAND_BAKE, "--direct off: materials of --lightmap-as emissive are "
-                                         "black and reflect no direct light; use moz or extras");
+        return usage_error(COMMAND_BAKE,
+                           "--direct off: materials of --lightmap-as emissive are "
+                           "black and reflect no direct light; use --lightmap-as moz or extras");
     }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
         return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
@@ -278,20 +252,13 @@ static int read_maps(const option_value *values, alp_bake_options *o)
 static int read_sampling(const command_line *a, alp_bake_options *o)
 {
     enum { ADAPTIVE_AUTO = 0, ADAPTIVE_OFF = 1 }; // the choices of --adaptive
-    static const float quality_errors[] = {0.04f, 0.01f, 0.004f};
     enum { MOST_SAMPLES = 65536 };
     const option_value *values = a->values;
     const option_value *adaptive = &values[OPTION_ADAPTIVE];
     alp_sampling_options *s = &o->sampling;
-    if (values[OPTION_QUALITY].given && values[OPTION_ERROR].given) {
-        return usage_error(COMMAND_BAKE, "--quality %s is --error %g; give one of them",
-                           values[OPTION_QUALITY].text,
-                           100.0 * (double)quality_errors[values[OPTION_QUALITY].choice]);
-    }
-    if (values[OPTION_QUALITY].given) {
-        s->error = quality_errors[values[OPTION_QUALITY].choice];
-    } else if (values[OPTION_ERROR].given) {
-        s->error = (float)(values[OPTION_ERROR].real / 100.0);
+    const int code = error_read(a, &s->error);
+    if (code != EXIT_DONE) {
+        return code;
     }
     if (s->error > 0.0f && o->maps == ALP_MAP_LIGHT &&
         (values[OPTION_SAMPLES].given || o->light.gather != ALP_GATHER_RAYS ||
@@ -415,7 +382,7 @@ static int read_atlas(const option_value *values, alp_atlas_options *o)
     static const named_option of_charts[] = {
         {OPTION_BLOCK, "--block"}, {OPTION_MIPS, "--mips"}, {OPTION_DENSITY, "--density"}};
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
-    const char *name = find_given(values, of_charts, sizeof of_charts / sizeof *of_charts);
+    const char *name = option_find_given(values, of_charts, sizeof of_charts / sizeof *of_charts);
     o->mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->size = (uint32_t)values[OPTION_SIZE].whole;
     o->padding = (uint32_t)values[OPTION_PADDING].whole;
@@ -448,11 +415,6 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     code = code == EXIT_DONE ? read_atlas(values, &o->atlas) : code;
     if (code == EXIT_DONE) {
         code = read_choice(values, o);
-    }
-    if (code == EXIT_DONE && o->output == NULL && o->maps_folder == NULL) {
-        return usage_error(
-            COMMAND_BAKE,
-            "no output; give -o OUT.glb, -o OUT.gltf, -o OUT.dae, -o OUT.obj or --maps-dir DIR");
     }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;

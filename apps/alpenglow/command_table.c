@@ -6,13 +6,13 @@
 
 static const command_entry commands[COMMAND_COUNT] = {
     [COMMAND_BAKE] =
-        {"bake", "SCENE -o OUT.glb|OUT.gltf|OUT.dae|OUT.obj [--maps-dir DIR] [OPTIONS]",
+        {"bake", "SCENE [[-o] OUT.glb|OUT.gltf|OUT.dae|OUT.obj] [--maps-dir DIR] [OPTIONS]",
          "bake occlusion and light into a scene", 1,
          "Unwraps SCENE into an atlas, bakes maps of occlusion and light (--maps), and writes a "
          "copy "
          "of the scene with these maps attached. All other parts of the scene are copied byte for "
          "byte."},
-    [COMMAND_RENDER] = {"render", "SCENE -o IMAGE.png|.exr|.hdr --with METHOD [OPTIONS]",
+    [COMMAND_RENDER] = {"render", "SCENE [-o] IMAGE.png|.exr|.hdr --with METHOD [OPTIONS]",
                         "render a picture of a scene", 1,
                         "Renders SCENE from one of its cameras, or from an automatic one. A .png "
                         "is for display; an .exr or .hdr holds linear values."},
@@ -40,7 +40,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "[W/m2]. Every model holds the same light: sky, emissive surfaces and reflected light "
          "(--direct)."},
     [COMMAND_PROBES] =
-        {"probes", "SCENE -o OUT.probes.json [OPTIONS]", "bake light probes", 1,
+        {"probes", "SCENE [-o] OUT.probes.json [OPTIONS]", "bake light probes", 1,
          "Solves the light of SCENE and samples it at probes, for everything that moves. Probes "
          "stand on a grid (--spacing, --bounds) or at any places (--at). docs/manual/"
          "probe-format.md describes the files."},
@@ -54,7 +54,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "Lights SCENE anew in each of some frames, under a sun that turns: traces maps of the "
          "surfaces that lamps light, injects their light into a grid of cells, and lets it travel "
          "from cell to cell. Prints the time of each stage. docs/manual/lpv.md explains them."},
-    [COMMAND_SH] = {"sh", "ENV [--convention NAME] [-o IMAGE.hdr|.exr|.png]",
+    [COMMAND_SH] = {"sh", "ENV [--convention NAME] [[-o] IMAGE.hdr|.exr|.png]",
                     "print the spherical harmonics of an environment", 1,
                     "Projects ENV to nine coefficients and prints them, one \"r g b\" a line, for "
                     "the program that --convention names. ENV is an equirectangular image of "
@@ -73,7 +73,7 @@ static const command_entry commands[COMMAND_COUNT] = {
          "probes (look-ups, and rays against the ray tracer), fields (models of light in space "
          "against the reference), ambience (the live volume along flights) or formats (reading)."},
     [COMMAND_VIEW] =
-        {"view", "SCENE -o IMAGE.png|.exr|.hdr --with MODE [OPTIONS]",
+        {"view", "SCENE [-o] IMAGE.png|.exr|.hdr --with MODE [OPTIONS]",
          "draw a scene on the graphics card", 1,
          "Draws SCENE by OpenGL 4.5, without a window: one picture (-o), or the pictures of a "
          "flight (--frames, --path, --pictures). A picture has the camera, the exposure and the "

@@ -8,18 +8,29 @@
 #include <stdio.h>
 #include <string.h>
 
-/// "R,G,B" or "R,G,B/R,G,B". @return false: neither
+/// "R,G,B", or one number for all three. @return the end, or NULL
+static const char *read_color(const char *text, double color[3])
+{
+    const char *end = number_parse_list(text, color, 3);
+    if (end == NULL) {
+        end = number_parse_list(text, color, 1);
+        color[1] = color[2] = color[0];
+    }
+    return end;
+}
+
+/// One colour, or two with a slash between. @return false: neither
 static bool read_colors(const char *text, alp_sky_options *sky)
 {
     double up[3], down[3];
-    const char *end = number_parse_list(text, up, 3);
+    const char *end = read_color(text, up);
     if (end == NULL || !color_set(up, sky->up)) {
         return false;
     }
     sky->kind = ALP_SKY_CONSTANT;
     if (*end == '/') {
         sky->kind = ALP_SKY_HEMISPHERE;
-        end = number_parse_list(end + 1, down, 3);
+        end = read_color(end + 1, down);
         if (end == NULL || !color_set(down, sky->down)) {
             return false;
         }
@@ -53,7 +64,7 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
         sky->kind = ALP_SKY_IMAGE;
     } else if (!read_colors(value->text, sky)) {
         return usage_error(a->command,
-                           "--sky: '%s' is not a sky; give a .hdr or .exr file, R,G,B, "
+                           "--sky: '%s' is not a sky; give a .hdr or .exr file, one number, R,G,B, "
                            "R,G,B/R,G,B (above and below the horizon), numbers 0 to 1e9, or "
                            "clear",
                            value->text);
@@ -163,6 +174,19 @@ int lighting_open(session *s, const command_line *a, alp_lighting_options *optio
     const alp_scene_info info = alp_scene_get_info(s->scene);
     (void)lamps_read(a, info.origin, lamps); // lighting_read found no fault in them
     return load_sky(s, a, options, sky);
+}
+
+int error_read(const command_line *a, float *error)
+{
+    static const float of_quality[] = {0.04f, 0.01f, 0.004f};
+    const option_value *quality = &a->values[OPTION_QUALITY], *wanted = &a->values[OPTION_ERROR];
+    *error = quality->given  ? of_quality[quality->choice]
+             : wanted->given ? (float)(wanted->real / 100.0)
+                             : 0.0f;
+    return quality->given && wanted->given
+               ? usage_error(a->command, "--quality %s is --error %g; give one of them",
+                             quality->text, 100.0 * (double)*error)
+               : EXIT_DONE;
 }
 
 uint32_t lighting_bounces(const command_line *a)

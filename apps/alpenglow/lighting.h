@@ -21,4 +21,8 @@ int lighting_open(session *s, const command_line *arguments, alp_lighting_option
 /// --bounces
 uint32_t lighting_bounces(const command_line *arguments);
 
+/// --quality or --error, as a share; 0 without them. @return EXIT_DONE, or EXIT_USAGE: both are
+/// given
+int error_read(const command_line *arguments, float *error);
+
 #endif

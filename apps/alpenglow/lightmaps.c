@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "lightmaps.h"
 
+#include "lighting.h"
+
 #include <alpenglow/geometry.h>
+
+#include <stdio.h>
 
 /// Choices of --atlas, in its order.
 static const lightmap_layout layouts[] = {{ALP_ATLAS_AUTO, ALP_BLEND_NORMAL},
@@ -40,21 +44,71 @@ static bool holds_emitted_light(const alp_scene *scene)
     return any;
 }
 
+/// The first given option that asks for a new map, or NULL.
+static const char *option_of_bake(const option_value *values)
+{
+    static const named_option of_bake[] = {
+        {OPTION_SIZE, "--size"},       {OPTION_ATLAS, "--atlas"},
+        {OPTION_STITCH, "--stitch"},   {OPTION_TEXEL_SAMPLES, "--texel-samples"},
+        {OPTION_QUALITY, "--quality"}, {OPTION_ERROR, "--error"},
+        {OPTION_GATHER, "--gather"},   {OPTION_BOUNCES, "--bounces"},
+        {OPTION_LAMP, "--lamp"},       {OPTION_SPOT, "--spot"}};
+    return option_find_given(values, of_bake, sizeof of_bake / sizeof *of_bake);
+}
+
+static void note(session *s, const command_line *a, const char *text)
+{
+    messages_log(&s->messages,
+                 &(alp_log_message){ALP_LOG_NOTE, "baked-light", a->operands[0], text});
+}
+
+alp_result lightmap_find(session *s, const command_line *a, bool *found)
+{
+    const bool named = alp_scene_get_info(s->scene).light_maps > 0;
+    const bool emitted = !named && holds_emitted_light(s->scene);
+    const char *asks = option_of_bake(a->values);
+    char text[160];
+    *found = emitted || (named && asks == NULL);
+    if (emitted) {
+        note(s, a, "its surfaces are black and emit a baked light map: the picture shows that map");
+    } else if (named && asks != NULL) {
+        snprintf(text, sizeof text,
+                 "it holds a baked light map, but %s asks for a new one; leave it out to see that "
+                 "of the file",
+                 asks);
+        note(s, a, text);
+    } else if (named) {
+        note(s, a, "the picture shows the light map that the file holds");
+    }
+    return *found ? alp_scene_read_light_maps(s->scene) : ALP_OK;
+}
+
 /// Says of a file with baked light whether the picture shows that light.
 static void note_baked_light(session *s, const command_line *a)
 {
-    const char *text = NULL;
     if (alp_scene_get_info(s->scene).light_maps > 0) {
-        text =
-            "it names a baked light map (MOZ_lightmap or extras.lightmap), which pictures do not "
-            "read: a new one is baked";
+        note(s, a,
+             "it names a baked light map (MOZ_lightmap or extras.lightmap), which view does not "
+             "show: a new one is baked; render --with lightmap shows that of the file");
     } else if (holds_emitted_light(s->scene)) {
-        text = "its surfaces are black and emit a baked light map: the picture shows that map";
+        note(s, a, "its surfaces are black and emit a baked light map: the picture shows that map");
     }
-    if (text != NULL) {
-        const alp_log_message note = {ALP_LOG_NOTE, "baked-light", a->operands[0], text};
-        messages_log(&s->messages, &note);
+}
+
+int lightmap_check(const command_line *a)
+{
+    const option_value *values = a->values;
+    float error;
+    const int code = error_read(a, &error);
+    if (code != EXIT_DONE || !(error > 0.0f)) {
+        return code;
     }
+    const bool by_paths = values[OPTION_GATHER].choice != (int)ALP_GATHER_RAYS;
+    if (values[OPTION_TEXEL_SAMPLES].given || by_paths || lighting_bounces(a) == 0) {
+        return usage_error(a->command, "--%s: needs --gather rays, bounces, and no --texel-samples",
+                           values[OPTION_QUALITY].given ? "quality" : "error");
+    }
+    return EXIT_DONE;
 }
 
 alp_result lightmap_bake(session *s, const command_line *a, const alp_render_options *o,
@@ -70,9 +124,12 @@ alp_result lightmap_bake(session *s, const command_line *a, const alp_render_opt
     bake.light.lighting = o->lighting;
     bake.light.bounces = o->bounces;
     bake.light.samples = (uint32_t)a->values[OPTION_TEXEL_SAMPLES].whole;
+    bake.light.gather = (alp_gather)a->values[OPTION_GATHER].choice;
+    (void)error_read(a, &bake.sampling.error); // lightmap_check found no fault
+    bake.light.error = bake.sampling.error;
     bake.progress = session_progress;
     bake.progress_user = s;
-    if ((maps & ALP_MAP_LIGHT) != 0) {
+    if ((maps & ALP_MAP_LIGHT) != 0 && a->command == COMMAND_VIEW) {
         note_baked_light(s, a);
     }
     const alp_result result = alp_bake(s->scene, &bake, lightmap, NULL);

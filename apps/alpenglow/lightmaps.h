@@ -13,8 +13,17 @@ typedef struct lightmap_layout {
 /// That of --atlas.
 lightmap_layout lightmap_layout_of(const command_line *arguments);
 
-/// Bakes maps alone, as bake --maps with --samples of --texel-samples. A note says of a scene with
-/// baked light whether the picture shows it.
+/// Whether the file holds a light map that render shows: one that its materials name, unless an
+/// option asks for a new one, or one that black surfaces emit. A note tells of it. Such maps are
+/// read, for alp_render without a lightmap.
+/// @param found out   @return as alp_scene_read_light_maps
+alp_result lightmap_find(session *s, const command_line *arguments, bool *found);
+
+/// Refuses --quality and --error where nothing has rounds. @return EXIT_DONE or EXIT_USAGE
+int lightmap_check(const command_line *arguments);
+
+/// Bakes maps alone, as bake --maps with --samples of --texel-samples. A note of view says of a
+/// scene with baked light whether the picture shows it.
 /// @param options  atlas, occlusion, lighting and bounces of the picture
 /// @param maps     bits of alp_map
 /// @param lightmap out, which the caller destroys; NULL on failure

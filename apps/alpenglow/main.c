@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The main program: finds the command and runs it.
 #include "commands/commands.h"
+#include "compare_assets.h"
+#include "messages.h"
 #include "streams.h"
 
 #include <alpenglow/alpenglow.h>
@@ -22,6 +24,31 @@ static int (*const runs[COMMAND_COUNT])(const command_line *arguments) = {
     [COMMAND_VIEW] = command_view,
 };
 
+/// Proposes commands for a scene that stands alone.
+static void propose(const char *scene)
+{
+    fputs("alpenglow: ", stderr);
+    print_clean(stderr, scene);
+    fputs(": a scene, without a command; give one:\n  alpenglow info ", stderr);
+    print_clean(stderr, scene);
+    fputs("  its contents and faults\n  alpenglow bake ", stderr);
+    print_clean(stderr, scene);
+    fputs("  occlusion; --sky 1 or another light for light\nTry 'alpenglow --help'.\n", stderr);
+}
+
+/// alpenglow alone.
+static int print_examples(void)
+{
+    fputs("alpenglow: no command; three to begin with:\n"
+          "  alpenglow info scene.glb             its contents and faults\n"
+          "  alpenglow bake scene.glb             occlusion, into scene.baked.glb\n"
+          "  alpenglow bake scene.glb lit.glb --maps light --sky 1\n"
+          "                                       light of its lamps and of a white sky\n"
+          "Try 'alpenglow --help'.\n",
+          stderr);
+    return EXIT_USAGE;
+}
+
 /// The command of this name, or COMMAND_COUNT after a message.
 static command_id find_command(const char *name)
 {
@@ -31,7 +58,9 @@ static command_id find_command(const char *name)
         }
     }
     const char *nearest = command_nearest(name);
-    if (name[0] == '-') {
+    if (compare_is_scene(name)) {
+        propose(name);
+    } else if (name[0] == '-') {
         usage_error(COMMAND_COUNT,
                     "unknown option '%s'; the command comes first: bake, render, "
                     "info, compare or bench",
@@ -50,8 +79,9 @@ static int run_command(int count, char **words)
     if (id == COMMAND_COUNT) {
         return EXIT_USAGE;
     }
-    if (arguments_ask_for_help(count - 1, words + 1)) {
-        return help_print_command(id);
+    const help_request request = arguments_ask_for_help(count - 1, words + 1);
+    if (request != HELP_NONE) {
+        return help_print_command(id, request);
     }
     command_line parsed;
     int code = arguments_parse(id, count - 1, words + 1, &parsed);
@@ -99,16 +129,17 @@ static int dispatch_option(int count, char **words)
 static int dispatch(int count, char **words)
 {
     if (count < 1) {
-        return usage_error(COMMAND_COUNT, "no command; give bake, render, info, compare or bench");
+        return print_examples();
     }
-    if (arguments_ask_for_help(1, words)) {
+    if (arguments_ask_for_help(1, words) != HELP_NONE) {
         return help_print();
     }
     if (strcmp(words[0], "help") == 0) {
-        command_id id = count > 1 ? find_command(words[1]) : COMMAND_COUNT;
+        const command_id id = count > 1 ? find_command(words[1]) : COMMAND_COUNT;
+        const bool all = count > 2 && strcmp(words[2], "all") == 0;
         return count == 1            ? help_print()
                : id == COMMAND_COUNT ? EXIT_USAGE
-                                     : help_print_command(id);
+                                     : help_print_command(id, all ? HELP_ALL : HELP_COMMON);
     }
     return dispatch_option(count, words);
 }

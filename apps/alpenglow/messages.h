@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages of the library: printed at once; warnings are kept for the report.
+// Messages of the library: printed at once, but for warnings like earlier ones, which are printed
+// together; warnings are kept for the report.
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
@@ -9,8 +10,13 @@
 
 #include <stdio.h>
 
+/// States of a warning.
+enum { MESSAGE_PRINTED = -1, MESSAGE_COUNTED = -2 };
+
 typedef struct message {
     char *code, *object, *text;
+    int like; // PRINTED; COUNTED: one of many of its code; or the index of one with the same text,
+              // with which it is still to be printed
 } message;
 
 typedef struct message_log {
@@ -19,10 +25,14 @@ typedef struct message_log {
     progress_display *progress; // its line is cleared first; NULL = none
     message *warnings;          // [warning_count]
     size_t warning_count, capacity;
+    size_t flushed; // warnings that messages_flush has seen
 } message_log;
 
 /// An alp_log_fn; `user` is a message_log.
 void messages_log(void *user, const alp_log_message *logged);
+/// Prints warnings that are like earlier ones: those of one text in one line, and for others of one
+/// code their number.
+void messages_flush(message_log *messages);
 /// Prints the warnings that were held, if the command cannot report them.
 void messages_print_held(message_log *messages);
 void messages_release(message_log *messages);

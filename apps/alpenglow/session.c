@@ -42,12 +42,14 @@ int session_load(session *s, const command_line *a)
     alp_scene_set_metals(s->scene, (alp_metals)a->values[OPTION_METALS].choice);
     code = result == ALP_OK ? animation_pose(s, a) : session_end(s, result);
     s->load_seconds = clock_seconds() - start;
+    messages_flush(&s->messages);
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 
 void session_close(session *s)
 {
     progress_clear(&s->progress);
+    messages_flush(&s->messages);
     alp_scene_destroy(s->scene);
     alp_context_destroy(s->context);
     messages_release(&s->messages);
@@ -76,6 +78,7 @@ void session_warn(session *s, const char *code, const char *object, const char *
 int session_end(session *s, alp_result result)
 {
     progress_clear(&s->progress);
+    messages_flush(&s->messages);
     if (result == ALP_OK) {
         return EXIT_DONE;
     }

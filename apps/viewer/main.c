@@ -7,8 +7,8 @@
 static int run(int count, char **words)
 {
     command_line parsed;
-    if (arguments_ask_for_help(count, words)) {
-        return help_print_command(COMMAND_VIEW);
+    if (arguments_ask_for_help(count, words) != HELP_NONE) {
+        return help_print_command(COMMAND_VIEW, HELP_ALL);
     }
     const int code = arguments_parse(COMMAND_VIEW, count, words, &parsed);
     return code == EXIT_DONE ? view_run(&parsed) : code;

@@ -15,7 +15,8 @@ typedef enum alp_atlas_mode {
     /// KEEP if the second UV set can hold a bake, and `block`, `mips` and `densities` are default;
     /// else CHARTS.
     ALP_ATLAS_AUTO = 0,
-    /// The scene's second UV set (TEXCOORD_1); an error if it cannot hold a bake. Not with
+    /// The scene's second UV set (TEXCOORD_1); an error if it cannot hold a bake. Triangles may
+    /// overlap on up to 1 % of its texels, with a warning (kept-overlap). Not with
     /// `block`, `mips` and `densities`.
     ALP_ATLAS_KEEP = 1,
     /// New charts, packed into pages.
@@ -94,9 +95,9 @@ ALP_API alp_atlas_options alp_atlas_options_default(void);
 /// @param scene must outlive the atlas
 /// @param atlas out, which the caller destroys; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (nothing to bake; KEEP with coordinates that are
-///         missing, out of [0,1] or overlapping: the message names triangles); LIMIT (more than
-///         4096 pages; a triangle larger than a page: the message has its numbers); OUT_OF_MEMORY;
-///         CANCELLED
+///         missing, out of [0,1] or overlapping on more than 1 % of the texels: the message names
+///         triangles); LIMIT (more than 4096 pages; a triangle larger than a page: the message has
+///         its numbers); OUT_OF_MEMORY; CANCELLED
 /// Based on: I. R. Hafthorsson. Ambient Occlusion Using Ray-tracing and Texture Blending. DTU,
 /// 2007; M. Garland, A. Willmott, P. S. Heckbert. Hierarchical Face Clustering on Polygonal
 /// Surfaces. I3D, 2001; L. Liu, L. Zhang, Y. Xu, C. Gotsman, S. J. Gortler. A Local/Global Approach
@@ -134,7 +135,8 @@ typedef struct alp_atlas_info {
     /// Triangles lower than 1/64 texel at their density: coordinates cannot hold their shape. They
     /// count as flipped only beyond their rounding.
     uint32_t sliver_triangles;
-    uint64_t overlapping_texels; ///< texels in which triangles overlap; 0 except for 1-texel pages
+    uint64_t overlapping_texels; ///< texels in which triangles overlap; 0 but with KEEP, and for
+                                 ///< 1-texel pages
 } alp_atlas_info;
 ALP_API alp_atlas_info alp_atlas_get_info(const alp_atlas *atlas);
 

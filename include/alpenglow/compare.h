@@ -43,7 +43,7 @@ typedef struct alp_map_difference {
 /// without area are left out.
 /// @param a, b scenes of one context
 /// @return ALP_OK; INVALID_ARGUMENT; INVALID_DATA (other triangles, no such map, a NaN or infinity:
-///         named); UNSUPPORTED (light in a KTX2); IO; OUT_OF_MEMORY
+///         named); UNSUPPORTED (light in a KTX2 other than RGBA16F); IO; OUT_OF_MEMORY
 /// Cost: one pass over the triangles, at most 16 bytes for each, and up to three reads a point.
 ALP_API ALP_NODISCARD alp_result alp_scene_compare_maps(const alp_scene *a, const alp_scene *b,
                                                         const alp_map_compare_options *options,

@@ -87,14 +87,15 @@ typedef struct alp_render_options {
                             ///< rounded up to a multiple of 16
     alp_camera camera;      ///< vertical_fov 0 (default) = camera `camera_index` of the scene
     /// Default 0. Past the last camera, an automatic one: alp_scene_get_camera's, unless one of 17
-    /// other places, outside and inside the bounding box, sees far more front-facing surface. It
-    /// depends on the scene alone.
+    /// other places, outside and inside the bounding box, sees far more front-facing surface. From
+    /// outside it is as near as a picture of this shape allows that holds all triangles.
     uint32_t camera_index;
     alp_occlusion_options
         occlusion; ///< AO by rays; its `samples` are rays per pixel, its progress is ignored
     const char *occluders; ///< surfaces that occlude, as in alp_bake_options; NULL (default) = all
     /// AO: NULL, or maps of this scene, used instead of its textures. LIGHTMAP: maps of this scene
-    /// with ALP_MAP_LIGHT.
+    /// with ALP_MAP_LIGHT, or NULL: those of the file (alp_scene_read_light_maps). Surfaces without
+    /// one reflect nothing then.
     const alp_lightmap *lightmap;
     /// RADIOSITY, HEMICUBE: atlas of the radiosity; default size 512, because its light is smooth.
     /// Its progress is ignored.

@@ -132,10 +132,16 @@ typedef struct alp_scene_info {
     double origin[3];
     uint64_t hash; ///< of the bytes of its files and its pose, or of the arrays it was made of
     /// Materials of a glTF that name a light map for viewers: MOZ_lightmap or extras.lightmap.
-    /// Only alp_scene_compare_maps reads such maps.
+    /// Only alp_scene_compare_maps and alp_scene_read_light_maps read such maps.
     uint32_t light_maps;
 } alp_scene_info;
 ALP_API alp_scene_info alp_scene_get_info(const alp_scene *scene);
+
+/// Reads the light maps that the materials of a glTF name (MOZ_lightmap, else extras.lightmap), and
+/// keeps them with the scene for ALP_RENDER_LIGHTMAP. Without any, it keeps that there is none. A
+/// second call does nothing. Values of MOZ_lightmap are taken as irradiance; extras state theirs.
+/// @return ALP_OK; INVALID_ARGUMENT; IO, INVALID_DATA, UNSUPPORTED, LIMIT (an image); OUT_OF_MEMORY
+ALP_API ALP_NODISCARD alp_result alp_scene_read_light_maps(alp_scene *scene);
 
 /// One surface: a primitive placed in the world by a node.
 typedef struct alp_surface_info {

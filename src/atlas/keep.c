@@ -178,6 +178,26 @@ alp_result alpi_uv_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3])
     return ALP_OK;
 }
 
+/// Whether so few texels are shared that a bake with KEEP goes on.
+static bool are_few(const alp_atlas *atlas)
+{
+    static const double MOST = 0.01; // of the covered texels
+    return atlas->options.mode == ALP_ATLAS_KEEP &&
+           (double)atlas->info.overlapping_texels <= MOST * (double)atlas->info.texels;
+}
+
+static void warn_of_few(const alp_atlas *atlas, const fault_list *list)
+{
+    const alp_scene *scene = atlas->scene;
+    alpi_warn(scene->context, "kept-overlap", scene->surfaces[list->surface].name,
+              "%u triangle%s with others in the second UV set (TEXCOORD_1), on %.2g %% of its "
+              "texels, such as %s%s: they have each other's values there; use --atlas charts for "
+              "maps without overlaps",
+              list->total, list->total == 1 ? " overlaps" : "s overlap",
+              100.0 * (double)atlas->info.overlapping_texels / (double)atlas->info.texels,
+              list->text, list->count > NAMED_LIMIT ? ", …" : "");
+}
+
 /// Measures the atlas and looks for triangles that share a place.
 static alp_result check_overlaps(alp_atlas *atlas, char **reason)
 {
@@ -191,6 +211,10 @@ static alp_result check_overlaps(alp_atlas *atlas, char **reason)
     alpi_release(atlas->context, overlaps.pairs);
     alpi_release(atlas->context, list.seen);
     ALP_TRY(result);
+    if (list.total > 0 && are_few(atlas)) {
+        warn_of_few(atlas, &list);
+        return ALP_OK;
+    }
     return list.total == 0 ? ALP_OK : tell(&list, "triangles overlap in it", reason);
 }
 

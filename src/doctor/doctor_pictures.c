@@ -172,6 +172,7 @@ alp_result alpi_doctor_draw_scene(const alp_scene *scene, const alp_finding_spot
     alp_camera camera;
     ALP_TRY(alpi_tracer_for_scene(scene, NULL, NULL, &tracer, NULL));
     ALP_TRY(alpi_camera_choose(scene, UINT32_MAX, NULL, NULL, &camera));
+    alpi_camera_frame(scene, (float)WIDTH / HEIGHT, &camera);
     if (spot != NULL) {
         alpi_doctor_aim(scene, tracer, spot, &camera);
     }

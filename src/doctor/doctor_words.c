@@ -77,8 +77,9 @@ static const alpi_finding_words words[] = {
      "--atlas keep stops: such a triangle would have one texel; --atlas auto makes charts",
      "unwrap those triangles, or use --atlas charts"},
     {ALP_FINDING_UV_OVERLAP, ALP_SEVERITY_WARNING, "uv-overlap",
-     "--atlas keep stops: places that share texels would have each other's shadows; --atlas "
-     "auto makes charts",
+     "places that share texels have each other's shadows: --atlas keep warns, or stops above 1 % "
+     "of "
+     "the texels; --atlas auto makes charts",
      "unwrap the set without overlaps (in Blender: lightmap pack), or use --atlas charts"},
     {ALP_FINDING_UV_SHARED, ALP_SEVERITY_WARNING, "uv-shared",
      "--atlas keep stops: nodes of one mesh would have each other's shadows; --atlas auto "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The camera of a scene that has none: of some eyes the one that sees most.
+// The camera of a scene that has none: of some eyes the one that sees most, as near as its picture
+// allows.
 #include "render/automatic_camera.h"
 
 #include "base/memory.h"
@@ -138,4 +139,60 @@ alp_result alpi_camera_choose(const alp_scene *scene, uint32_t index, alp_progre
     }
     alpi_release(scene->context, marks);
     return ALP_OK;
+}
+
+// --- the frame -----------------------------------------------------------------------------------
+
+/// How far the scene reaches towards two opposite sides of a picture, as planes through the eye:
+/// the largest x + t z and −x + t z, for z towards the eye and the tangent t of half the view.
+typedef struct reach {
+    double tangent, least, most;
+} reach;
+
+static void extend(reach *r, double x, double z)
+{
+    r->most = fmax(r->most, x + r->tangent * z);
+    r->least = fmax(r->least, r->tangent * z - x);
+}
+
+static bool is_in_box(const alp_scene *scene, vec3 p)
+{
+    const vec3 low = scene->bounds_min, high = scene->bounds_max;
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y &&
+           p.z <= high.z;
+}
+
+void alpi_camera_frame(const alp_scene *scene, float aspect, alp_camera *camera)
+{
+    static const double MARGIN = 0.95; // of the picture is filled
+    const vec3 eye = vec3_load(camera->position), none = {0.0f, 0.0f, 0.0f};
+    const vec3 back = vec3_normalize_or(vec3_sub(eye, vec3_load(camera->target)), none);
+    const vec3 right = vec3_normalize_or(vec3_cross(vec3_load(camera->up), back), none);
+    const vec3 up = vec3_cross(back, right);
+    const double tangent = MARGIN * tan(0.5 * (double)camera->vertical_fov);
+    reach across = {tangent * (double)aspect, -HUGE_VAL, -HUGE_VAL};
+    reach upwards = {tangent, -HUGE_VAL, -HUGE_VAL};
+    if (scene->usable_count == 0 || is_in_box(scene, eye)) {
+        return;
+    }
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        vec3 c[3];
+        alpi_triangle_corners(scene, t, c);
+        for (int k = 0; k < 3 && scene->triangle_usable[t]; k++) {
+            const double z = (double)vec3_dot(c[k], back);
+            extend(&across, (double)vec3_dot(c[k], right), z);
+            extend(&upwards, (double)vec3_dot(c[k], up), z);
+        }
+    }
+    const double wide = 0.5 * (across.most + across.least) / across.tangent;
+    const double high = 0.5 * (upwards.most + upwards.least) / upwards.tangent;
+    const double distance = fmax(wide, high);
+    const float x = (float)(0.5 * (across.most - across.least));
+    const float y = (float)(0.5 * (upwards.most - upwards.least));
+    const vec3 plane = vec3_mad(vec3_scale(right, x), y, up);
+    const vec3 middle =
+        vec3_mad(scene->bounds_min, 0.5f, vec3_sub(scene->bounds_max, scene->bounds_min));
+    const float depth = vec3_dot(middle, back);
+    vec3_store(camera->position, vec3_mad(plane, (float)distance, back));
+    vec3_store(camera->target, vec3_mad(plane, depth, back));
 }

@@ -15,6 +15,8 @@
 #include "render/hemicube_view.h"
 #include "render/lightmap_pixel.h"
 #include "render/object_pass.h"
+#include "render/stored_light.h"
+#include "scene/light_maps.h"
 #include "scene/origin.h"
 #include "scene/select.h"
 #include "transport/examine.h"
@@ -90,10 +92,12 @@ static alp_result check_options(const alp_scene *scene, const alp_render_options
     if (o->lightmap != NULL && o->lightmap->scene != scene) {
         return alpi_fail(scene->context, code, "render: the maps belong to another scene");
     }
-    const bool has_light = o->lightmap != NULL && o->lightmap->irradiance_pages != NULL;
+    const bool has_light = o->lightmap != NULL ? o->lightmap->irradiance_pages != NULL
+                                               : alpi_scene_light_maps(scene) != NULL;
     if (o->method == ALP_RENDER_LIGHTMAP && !has_light) {
         return alpi_fail(scene->context, code,
-                         "render: there is no map of light; bake with ALP_MAP_LIGHT");
+                         "render: there is no map of light; bake with ALP_MAP_LIGHT, or read those "
+                         "of the file (alp_scene_read_light_maps)");
     }
     if (o->method == ALP_RENDER_FIELD && o->field == NULL) {
         return alpi_fail(scene->context, code, "render: there is no field");
@@ -149,7 +153,11 @@ alp_result alp_render_find_camera(const alp_scene *scene, const alp_render_optio
         *camera = o.camera;
         return ALP_OK;
     }
-    return alpi_camera_choose(scene, o.camera_index, o.progress, o.progress_user, camera);
+    ALP_TRY(alpi_camera_choose(scene, o.camera_index, o.progress, o.progress_user, camera));
+    if (o.camera_index >= scene->camera_count && o.width > 0 && o.height > 0) {
+        alpi_camera_frame(scene, (float)o.width / (float)o.height, camera);
+    }
+    return ALP_OK;
 }
 
 /// The camera that was given, or that of the scene.
@@ -378,11 +386,13 @@ static alp_result choose_occluders(render_job *job)
 /// What LIGHTMAP reads.
 static void prepare_lightmap(render_job *job)
 {
+    const alp_lightmap *maps = job->options.lightmap;
     job->shown.surfaces = (alpi_gather_scene){.scene = job->scene,
                                               .tracer = job->tracer,
                                               .lighting = job->lighting,
                                               .filter = job->occlusion.filter,
-                                              .light = alpi_lightmap_light(job->options.lightmap),
+                                              .light = maps != NULL ? alpi_lightmap_light(maps)
+                                                                    : alpi_stored_light(job->scene),
                                               .emitters = true};
 }
 

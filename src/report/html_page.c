@@ -21,6 +21,7 @@ alp_report_options alp_report_options_default(void)
 /// What the page is made of.
 typedef struct report_job {
     const alp_scene *scene;
+    const alp_lightmap *lightmap;
     const alp_bake_report *report;
     alp_report_options options;
     alpi_report_pictures pictures;
@@ -267,6 +268,7 @@ static alp_result put_all(alpi_page *page, const report_job *job)
 {
     put_head(page, job);
     put_tiles(page, job);
+    alpi_report_put_scene(page, job->scene, job->lightmap);
     put_findings(page, job);
     if (!job->at_vertices) {
         alpi_report_put_maps(page, job->report, &job->pictures);
@@ -312,6 +314,7 @@ alp_result alp_bake_write_report(const alp_scene *scene, const alp_lightmap *lig
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     report_job job = {.scene = scene,
+                      .lightmap = lightmap,
                       .report = report,
                       .options = options != NULL ? *options : alp_report_options_default(),
                       .at_vertices = lightmap->atlas == NULL};

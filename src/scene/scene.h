@@ -108,10 +108,11 @@ typedef struct alpi_attachment {
     void (*destroy)(alp_context *context, void *data);
 } alpi_attachment;
 typedef enum alpi_attachment_kind {
-    ALPI_ATTACHMENT_DOCUMENT, // the file as read (formats)
-    ALPI_ATTACHMENT_COLLADA,  // the same of a COLLADA file (formats)
-    ALPI_ATTACHMENT_OBJ,      // an OBJ with its libraries (formats)
-    ALPI_ATTACHMENT_TRACER,   // acceleration structure, made at its first use (trace)
+    ALPI_ATTACHMENT_DOCUMENT,   // the file as read (formats)
+    ALPI_ATTACHMENT_COLLADA,    // the same of a COLLADA file (formats)
+    ALPI_ATTACHMENT_OBJ,        // an OBJ with its libraries (formats)
+    ALPI_ATTACHMENT_TRACER,     // acceleration structure, made at its first use (trace)
+    ALPI_ATTACHMENT_LIGHT_MAPS, // alpi_light_maps, where they were read (formats)
     ALPI_ATTACHMENT_COUNT
 } alpi_attachment_kind;
 

@@ -31,7 +31,7 @@ enum { NAMED_LIMIT = 8 };
 enum { ROOM_POINTS = 512, ROOM_WALKS = 16, WALK_BOUNCES = 64 };
 /// One in so many points in a closed room is worth a word.
 enum { ROOM_SHARE = 4 };
-enum { STREAM_AROUND = 101, STREAM_ROOM = 102 };
+enum { STREAM_AROUND = 101, STREAM_ROOM = 102, STREAM_CLOSER = 103 };
 
 /// What the rays of a lamp met.
 typedef struct verdict {
@@ -408,6 +408,110 @@ static alp_result examine_points(void *user, uint32_t begin, uint32_t end, uint3
     return ALP_OK;
 }
 
+/// Rays from closed points that met a surface, and of those the ones with nothing behind it.
+typedef struct closers {
+    uint32_t *met, *last; // [surfaces]
+} closers;
+
+/// One ray from each of eight points, and what lies behind its first hit.
+static void count_closers(const rooms *r, uint32_t first, uint32_t round, uint32_t active,
+                          closers *c)
+{
+    const examination *e = r->e;
+    alpi_hits hits = {.behind = 0}, behind;
+    alpi_rays rays;
+    vec3 directions[ALPI_PACKET];
+    alpi_rays_clear(&rays);
+    for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+        const alpi_area_point *p = &r->points[first + i];
+        hits.triangle[i] = p->triangle;
+        hits.b1[i] = p->b1;
+        hits.b2[i] = p->b2;
+        const alpi_receiver_point at =
+            alpi_hit_point(e->scene, &hits, (int)i, (vec3){0.0f, 0.0f, 0.0f}, NULL);
+        set_step(&rays, (int)i, &at,
+                 alpi_sample_2d(alpi_random_key(round, first + i, STREAM_CLOSER), 0),
+                 &directions[i]);
+    }
+    alpi_trace_nearest(e->tracer, &rays, active, e->filter, &hits);
+    uint32_t met = 0;
+    alpi_rays_clear(&rays);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((active >> i & 1u) != 0 && hits.triangle[i] != ALPI_NONE) {
+            const alpi_receiver_point at = alpi_hit_point(e->scene, &hits, i, directions[i], NULL);
+            alpi_rays_set(&rays, i, vec3_mad(at.position, -at.offset, at.geometric_normal),
+                          directions[i], INFINITY);
+            met |= 1u << i;
+        }
+    }
+    alpi_trace_nearest(e->tracer, &rays, met, (alpi_trace_filter){0}, &behind);
+    for (int i = 0; i < ALPI_PACKET; i++) {
+        if ((met >> i & 1u) != 0) {
+            const uint32_t surface = e->scene->triangle_surface[hits.triangle[i]];
+            c->met[surface]++;
+            c->last[surface] += behind.triangle[i] == ALPI_NONE;
+        }
+    }
+}
+
+/// The surface with the largest count, whose count becomes 0; ALPI_NONE if all are.
+static uint32_t take_largest(const alp_scene *scene, uint32_t *counts)
+{
+    uint32_t largest = ALPI_NONE;
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        if (counts[s] > (largest == ALPI_NONE ? 0 : counts[largest])) {
+            largest = s;
+        }
+    }
+    if (largest != ALPI_NONE) {
+        counts[largest] = 0;
+    }
+    return largest;
+}
+
+/// Names up to three surfaces: outer ones, or what is met where nothing is an outer one.
+static void name_closers(const alp_scene *scene, const closers *c, char *text, size_t size)
+{
+    enum { NAMES = 3 };
+    uint32_t surface = take_largest(scene, c->last);
+    uint32_t *counts = surface != ALPI_NONE ? c->last : c->met;
+    surface = surface != ALPI_NONE ? surface : take_largest(scene, counts);
+    size_t used = 0;
+    text[0] = '\0';
+    for (int i = 0; i < NAMES && surface != ALPI_NONE; i++) {
+        const int length = snprintf(text + used, size - used, "%s\"%.60s\"", i > 0 ? ", " : "",
+                                    scene->surfaces[surface].name);
+        used += length > 0 && (size_t)length < size - used ? (size_t)length : 0;
+        surface = take_largest(scene, counts);
+    }
+}
+
+/// Finds the surfaces between closed points and the outside.
+static alp_result find_closers(const rooms *r, char *text, size_t size)
+{
+    enum { ROUNDS = 8 };
+    const alp_scene *scene = r->e->scene;
+    closers c = {NULL, NULL};
+    c.met = ALPI_NEW(scene->context, uint32_t, scene->surface_count);
+    c.last = ALPI_NEW(scene->context, uint32_t, scene->surface_count);
+    const bool good = c.met != NULL && c.last != NULL;
+    for (uint32_t first = 0; good && first < ROOM_POINTS; first += ALPI_PACKET) {
+        uint32_t active = 0;
+        for (uint32_t i = 0; i < ALPI_PACKET; i++) {
+            active |= (r->closed[first + i] ? 1u : 0u) << i;
+        }
+        for (uint32_t round = 0; round < ROUNDS && active != 0; round++) {
+            count_closers(r, first, round, active, &c);
+        }
+    }
+    if (good) {
+        name_closers(scene, &c, text, size);
+    }
+    alpi_release(scene->context, c.met);
+    alpi_release(scene->context, c.last);
+    return good ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+}
+
 /// Whether a light stands in the scene and need not get in.
 static bool has_light_inside(const alpi_lighting *lighting)
 {
@@ -437,12 +541,17 @@ static alp_result examine_rooms(const examination *e, alp_progress_fn *progress,
     for (uint32_t i = 0; i < ROOM_POINTS; i++) {
         closed += r->closed[i];
     }
+    const bool told_of = result == ALP_OK && closed * ROOM_SHARE >= ROOM_POINTS;
+    char names[256] = "";
+    if (told_of) {
+        result = find_closers(r, names, sizeof names);
+    }
     alpi_release(context, r);
-    if (result == ALP_OK && closed * ROOM_SHARE >= ROOM_POINTS) {
+    if (told_of && result == ALP_OK) {
         alpi_warn(context, "closed-room", e->scene->name,
-                  "%.0f %% of the surface is in closed rooms: no sky or sun reaches it, and "
-                  "there is no lamp or emissive surface; add one, or an opening",
-                  100.0 * closed / ROOM_POINTS);
+                  "%.0f %% of the surface is in rooms closed by %s: no sky or sun reaches "
+                  "it, and there is no lamp or emissive surface; add one, or an opening",
+                  100.0 * closed / ROOM_POINTS, names);
     }
     return result;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow bake: loads, bakes, reports.
+#include "bake_defaults.h"
 #include "bake_options.h"
 #include "commands/commands.h"
 #include "fields.h"
@@ -11,6 +12,9 @@
 #include "report_page.h"
 #include "session.h"
 #include "work.h"
+
+#include <stdlib.h>
+#include <unistd.h>
 
 static int write_json(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
                       const alp_diagnosis *diagnosis, const command_line *a)
@@ -44,8 +48,13 @@ static int report(session *s, const alp_lightmap *lightmap, const alp_bake_repor
     return code;
 }
 
-static int bake(session *s, const command_line *a, alp_bake_options *o)
+/// @param note of a choice that was made, or NULL
+static int bake(session *s, const command_line *a, alp_bake_options *o, const char *note)
 {
+    if (note != NULL) {
+        messages_log(&s->messages,
+                     &(alp_log_message){ALP_LOG_NOTE, "lightmap-as", o->output, note});
+    }
     alp_lightmap *lightmap = NULL;
     alp_bake_report told;
     o->progress = session_progress;
@@ -95,12 +104,30 @@ static int check_report(const command_line *a, const char *output)
     return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
-int command_bake(const command_line *a)
+/// Names SCENE as such where OUT would overwrite it. Other outputs that are there stop the bake
+/// too.
+static int check_own_input(const command_line *a, const char *output)
+{
+    char text[512];
+    if (output == NULL || a->values[OPTION_FORCE].given ||
+        !output_is_same(output, a->operands[0]) || access(output, F_OK) != 0) {
+        return EXIT_DONE;
+    }
+    snprintf(text, sizeof text,
+             "%.300s: is SCENE itself, and would be overwritten by the baked scene; name another "
+             "file, or force it (-f)",
+             output);
+    return failure(text);
+}
+
+/// @param note of a choice that was made, or NULL
+static int run(const command_line *a, const char *note)
 {
     alp_bake_options options;
     lamp_list lamps;
     int code = bake_options_read(a, &options, &lamps);
     code = code == EXIT_DONE ? probe_file_check(a) : code;
+    code = code == EXIT_DONE ? check_own_input(a, options.output) : code;
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
     }
@@ -114,9 +141,19 @@ int command_bake(const command_line *a)
     alp_image *sky;
     code = lighting_open(&s, a, &options.light.lighting, &lamps, &sky);
     if (code == EXIT_DONE) {
-        code = bake(&s, a, &options);
+        code = bake(&s, a, &options, note);
     }
     alp_image_destroy(sky);
     session_close(&s);
+    return code;
+}
+
+int command_bake(const command_line *a)
+{
+    command_line filled = *a;
+    const char *note = NULL;
+    char *output = bake_defaults_fill(&filled, &note);
+    const int code = run(&filled, note);
+    free(output);
     return code;
 }

@@ -12,8 +12,8 @@
 #include <ctype.h>
 #include <math.h>
 
-/// Number of lamps, of emissive surfaces, and of animations that text lists; JSON lists all.
-enum { LIGHTS_TOLD = 16, ANIMATIONS_TOLD = 16 };
+/// Rows of a table; JSON has all.
+enum { ROW_LIMIT = 20 };
 
 static bool is_far(const alp_scene_info *i)
 {
@@ -119,7 +119,7 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
     }
     printf("\n%10s  %7s  %-5s  %-9s  %s\n", "triangles", "uv sets", "sides", "normals",
            "surface (material)");
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && i < ROW_LIMIT; i++) {
         alp_surface_info s = alp_scene_get_surface(scene, i);
         printf("%10u  %7u  %-5s  %-9s  ", s.triangle_count, s.uv_sets,
                s.double_sided ? "two" : "one", s.normals_generated ? "generated" : "given");
@@ -127,6 +127,10 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
         printf(" (");
         print_clean(stdout, s.material[0] != '\0' ? s.material : "no material");
         printf(")%s\n", s.mirrored ? ", mirrored" : "");
+    }
+    if (count > ROW_LIMIT) {
+        printf("%10s  %u more surface%s; --json lists all\n", "and", count - ROW_LIMIT,
+               count - ROW_LIMIT == 1 ? "" : "s");
     }
 }
 
@@ -192,8 +196,8 @@ static void print_emissive(const alp_surface_info *s)
 /// Counts the lights that were not listed.
 static void print_rest(uint32_t count, const char *what)
 {
-    if (count > LIGHTS_TOLD) {
-        const uint32_t rest = count - LIGHTS_TOLD;
+    if (count > ROW_LIMIT) {
+        const uint32_t rest = count - ROW_LIMIT;
         printf("light      and %u more %s%s; --json lists all\n", rest, what, rest == 1 ? "" : "s");
     }
 }
@@ -205,12 +209,12 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
     putchar('\n');
     for (uint32_t i = 0; i < info->surfaces; i++) {
         const alp_surface_info s = alp_scene_get_surface(scene, i);
-        if (is_emissive(&s) && emissive++ < LIGHTS_TOLD) {
+        if (is_emissive(&s) && emissive++ < ROW_LIMIT) {
             print_emissive(&s);
         }
     }
     print_rest(emissive, "emissive surface");
-    for (uint32_t i = 0; i < info->lights && i < LIGHTS_TOLD; i++) {
+    for (uint32_t i = 0; i < info->lights && i < ROW_LIMIT; i++) {
         const alp_light_info l = alp_scene_get_light(scene, i);
         print_lamp(info, &l, i);
     }
@@ -222,14 +226,14 @@ static void print_lights(const alp_scene *scene, const alp_scene_info *info)
 
 static void print_animations(const alp_scene *scene, uint32_t count)
 {
-    for (uint32_t i = 0; i < count && i < ANIMATIONS_TOLD; i++) {
+    for (uint32_t i = 0; i < count && i < ROW_LIMIT; i++) {
         const alp_animation_info a = alp_scene_get_animation(scene, i);
-        printf("animation  %u ", i);
+        printf("%sanimation  %u ", i == 0 ? "\n" : "", i);
         print_clean(stdout, a.name[0] != '\0' ? a.name : "(no name)");
         printf(", %g s, %u channel%s\n", a.seconds, a.channels, a.channels == 1 ? "" : "s");
     }
-    if (count > ANIMATIONS_TOLD) {
-        printf("animation  and %u more; --json lists all\n", count - ANIMATIONS_TOLD);
+    if (count > ROW_LIMIT) {
+        printf("animation  and %u more; --json lists all\n", count - ROW_LIMIT);
     }
 }
 
@@ -330,24 +334,27 @@ static json_t *make_cameras(const alp_scene *scene, const alp_scene_info *info)
     return list;
 }
 
-static int print_json(const session *s, const alp_scene_info *info, const default_work *work,
+/// @param a names the file, or none: standard output
+static int write_json(const session *s, const command_line *a, const default_work *work,
                       const alp_diagnosis *diagnosis, json_t *pictures)
 {
+    const alp_scene_info info = alp_scene_get_info(s->scene);
     json_t *document = json_pack(
         "{s:s, s:o, s:{s:o, s:o}, s:o, s:o, s:o, s:o, s:o, s:o, s:O, s:o}", "version",
-        alp_version(), "scene", make_scene(s->scene, info), "work", "ao", work_json(&work->ao),
-        "light", work_json(&work->light), "surfaces", make_surfaces(s->scene, info->surfaces),
-        "lights", make_lights(s->scene, info), "cameras", make_cameras(s->scene, info),
-        "animations", make_animations(s->scene, info->animations), "uv_sets",
+        alp_version(), "scene", make_scene(s->scene, &info), "work", "ao", work_json(&work->ao),
+        "light", work_json(&work->light), "surfaces", make_surfaces(s->scene, info.surfaces),
+        "lights", make_lights(s->scene, &info), "cameras", make_cameras(s->scene, &info),
+        "animations", make_animations(s->scene, info.animations), "uv_sets",
         findings_uv_sets_json(diagnosis), "findings", findings_json(diagnosis), "pictures",
         pictures, "warnings", report_warnings(&s->messages));
     if (document == NULL) {
         return failure("out of memory");
     }
-    json_dumpf(document, stdout, JSON_STYLE); // main checks the stream
-    putchar('\n');
+    const char *path = a->values[OPTION_JSON].text;
+    const int code =
+        output_write_json(document, path != NULL ? path : "-", a->values[OPTION_FORCE].given);
     json_decref(document);
-    return EXIT_DONE;
+    return code;
 }
 
 static void print_text(const session *s, const char *path, const alp_scene_info *info,
@@ -355,12 +362,12 @@ static void print_text(const session *s, const char *path, const alp_scene_info 
 {
     print_scene(path, info);
     print_unit(s->scene, info);
-    print_animations(s->scene, info->animations);
     print_work(work, info->area);
+    findings_print(diagnosis);
+    print_animations(s->scene, info->animations);
     print_surfaces(s->scene, info->surfaces);
     findings_print_uv_sets(diagnosis);
     print_lights(s->scene, info);
-    findings_print(diagnosis);
 }
 
 /// The pictures first: with JSON, their names are in the one document.
@@ -373,7 +380,7 @@ static int tell(session *s, const command_line *a, const default_work *work,
     const int drawn = pictures_write(s, diagnosis, a, &pictures);
     int code = drawn;
     if (is_json && drawn == EXIT_DONE) {
-        code = print_json(s, &info, work, diagnosis, pictures);
+        code = write_json(s, a, work, diagnosis, pictures);
     } else if (!is_json) {
         print_text(s, a->operands[0], &info, work, diagnosis);
         for (size_t i = 0; drawn == EXIT_DONE && i < json_array_size(pictures); i++) {
@@ -436,6 +443,19 @@ static int show_probe_file(const command_line *a)
     return code;
 }
 
+/// --json FILE must not be SCENE, and is refused before the work.
+static int check_json(const command_line *a)
+{
+    const char *path = a->values[OPTION_JSON].text;
+    if (path == NULL) {
+        return EXIT_DONE;
+    }
+    if (output_is_same(path, a->operands[0])) {
+        return usage_error(COMMAND_INFO, "--json %s: SCENE has the same name; give another", path);
+    }
+    return output_check_json(path, a->values[OPTION_FORCE].given);
+}
+
 int command_info(const command_line *a)
 {
     session s;
@@ -450,7 +470,11 @@ int command_info(const command_line *a)
     }
     default_work work = {{0}, {0}};
     alp_diagnosis *diagnosis = NULL;
-    int code = session_open(&s, a);
+    int code = check_json(a);
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    code = session_open(&s, a);
     s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);

@@ -62,6 +62,9 @@ static int check_method(const command_line *a, const alp_render_options *o)
                    {"--atlas", OPTION_ATLAS, LIGHTMAP},
                    {"--stitch", OPTION_STITCH, LIGHTMAP},
                    {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
+                   {"--quality", OPTION_QUALITY, LIGHTMAP},
+                   {"--error", OPTION_ERROR, LIGHTMAP},
+                   {"--gather", OPTION_GATHER, LIGHTMAP},
                    {"--bounces", OPTION_BOUNCES, LIT},
                    {"--sun", OPTION_SUN, LIT},
                    {"--sun-size", OPTION_SUN_SIZE, LIT},
@@ -142,6 +145,7 @@ static int read_options(const command_line *a, alp_render_options *o, lamp_list 
     }
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? check_method(a, o) : code;
+    code = code == EXIT_DONE ? lightmap_check(a) : code;
     code = code == EXIT_DONE ? field_check(a, 1u << model_of(a)) : code;
     code = code == EXIT_DONE ? object_read(a, (const double[3]){0.0, 0.0, 0.0}, &o->object) : code;
     code = code == EXIT_DONE ? read_hemicube(a, o) : code;
@@ -191,7 +195,11 @@ static alp_result make_picture(session *s, const command_line *a, alp_render_opt
     alp_lightmap *lightmap = NULL;
     alp_result result = ALP_OK;
     *image = NULL;
+    bool found = false;
     if (o->method == ALP_RENDER_LIGHTMAP) {
+        result = lightmap_find(s, a, &found);
+    }
+    if (o->method == ALP_RENDER_LIGHTMAP && result == ALP_OK && !found) {
         result = lightmap_bake(s, a, o, ALP_MAP_LIGHT, lightmap_layout_of(a), &lightmap);
         o->lightmap = lightmap;
     }

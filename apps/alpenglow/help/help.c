@@ -52,13 +52,15 @@ void option_facts(const option *o, char *text, size_t size)
     }
 }
 
-static void print_option(const option *o)
+/// @param whole else the first paragraph of its help
+static void print_option(const option *o, bool whole)
 {
-    enum { INDENT = 8 };
-    char facts[OPTION_FACTS_SIZE];
+    enum { INDENT = 8, TEXT_SIZE = 1024 };
+    char facts[OPTION_FACTS_SIZE], text[TEXT_SIZE];
     printf("  %s%s%s%s%s\n", o->name, o->alias ? ", " : "", o->alias ? o->alias : "",
            o->value ? " " : "", o->value ? o->value : "");
-    print_paragraph(o->help, INDENT);
+    snprintf(text, sizeof text, "%.*s", (int)strcspn(o->help, "\n"), o->help);
+    print_paragraph(whole ? o->help : text, INDENT);
     option_facts(o, facts, sizeof facts);
     if (facts[0] != '\0') {
         print_paragraph(facts, INDENT);
@@ -99,8 +101,26 @@ static void print_group(command_id command, option_group group)
         printf("\n%s:\n", option_group_title(group));
     }
     for (; o != NULL; o = option_next(command, group, o)) {
-        print_option(o);
+        print_option(o, true);
     }
+}
+
+/// The options that people use. @return false: the command marks none
+static bool print_common(command_id command)
+{
+    unsigned count = 0, all = 0;
+    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
+        all += o->id != OPTION_LATER;
+        if ((o->common & (1u << command)) != 0) {
+            fputs(count++ == 0 ? "\nOptions:\n" : "", stdout);
+            print_option(o, false);
+        }
+    }
+    if (count > 0) {
+        printf("\n'alpenglow %s --help all' has all %u options, in full.\n",
+               command_table()[command].name, all);
+    }
+    return count > 0;
 }
 
 static void print_scenes(void)
@@ -125,15 +145,18 @@ static void print_footer(command_id command)
            command_interruptible(command) ? ", 130 interrupted" : "");
 }
 
-int help_print_command(command_id command)
+int help_print_command(command_id command, help_request request)
 {
     const command_entry *c = &command_table()[command];
     printf("Usage: alpenglow %s %s\n\n", c->name, c->synopsis);
     print_paragraph(c->help, 0);
-    for (option_group group = 0; group < GROUP_LATER; group++) {
+    const bool common = request == HELP_COMMON && print_common(command);
+    for (option_group group = 0; group < GROUP_LATER && !common; group++) {
         print_group(command, group);
     }
-    print_later(command);
+    if (!common) {
+        print_later(command);
+    }
     print_footer(command);
     return EXIT_DONE;
 }

@@ -2,8 +2,6 @@
 // Parsing a command line by the table: strict numbers, ranges, suggestions for misspelt words.
 #include "options/options.h"
 
-#include <errno.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,181 +26,6 @@ int usage_error(command_id command, const char *format, ...)
     return EXIT_USAGE;
 }
 
-// --- numbers -------------------------------------------------------------------------------------
-
-number_result number_parse_whole(const char *text, uint64_t *number)
-{
-    if (*text == '\0' || text[strspn(text, "0123456789")] != '\0') {
-        return NUMBER_NONE;
-    }
-    errno = 0;
-    unsigned long long parsed = strtoull(text, NULL, 10);
-    *number = parsed;
-    return errno == ERANGE ? NUMBER_TOO_LARGE : NUMBER_OK;
-}
-
-number_result number_parse_size(const char *text, uint64_t *number)
-{
-    static const char units[] = "KMG";
-    char digits[32];
-    const size_t length = strspn(text, "0123456789");
-    const char *unit = text[length] != '\0' ? strchr(units, text[length]) : NULL;
-    if (length == 0 || length >= sizeof digits ||
-        (text[length] != '\0' && (unit == NULL || text[length + 1] != '\0'))) {
-        return NUMBER_NONE;
-    }
-    memcpy(digits, text, length);
-    digits[length] = '\0';
-    number_result result = number_parse_whole(digits, number);
-    for (int i = 0; unit != NULL && i <= unit - units; i++) {
-        result = *number > UINT64_MAX / 1024 ? NUMBER_TOO_LARGE : result;
-        *number *= 1024;
-    }
-    return result;
-}
-
-number_result number_parse_real(const char *text, double *number)
-{
-    // strtod alone would accept leading blanks, hexadecimal, nan and inf.
-    if (*text == '\0' || text[strspn(text, "0123456789+-.eE")] != '\0') {
-        return NUMBER_NONE;
-    }
-    char *end = NULL;
-    *number = strtod(text, &end);
-    if (end == text || *end != '\0') {
-        return NUMBER_NONE;
-    }
-    return isfinite(*number) ? NUMBER_OK : NUMBER_TOO_LARGE;
-}
-
-const char *number_parse_list(const char *text, double *numbers, int count)
-{
-    for (int i = 0; i < count; i++) {
-        char word[64];
-        const size_t length = strcspn(text, ",/");
-        if (length == 0 || length >= sizeof word) {
-            return NULL;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (number_parse_real(word, &numbers[i]) != NUMBER_OK || fabs(numbers[i]) > 1e9) {
-            return NULL;
-        }
-        text += length;
-        if (i + 1 < count && *text++ != ',') {
-            return NULL;
-        }
-    }
-    return text;
-}
-
-void option_range(const option *o, char *text, size_t size)
-{
-    // %.16g prints whole numbers in full, and 1e-06 short.
-    int length = o->minimum < o->maximum
-                     ? snprintf(text, size, "%.16g to %.16g", o->minimum, o->maximum)
-                     : snprintf(text, size, "%.16g", o->minimum);
-    if (o->unit != NULL && length > 0 && (size_t)length < size) {
-        length += snprintf(text + length, size - (size_t)length, " %s", o->unit);
-    }
-    if (o->choices != NULL && length > 0 && (size_t)length < size) {
-        char words[TEXT_SIZE];
-        snprintf(words, sizeof words, "%s", o->choices);
-        for (char *bar = strchr(words, '|'); bar != NULL; bar = strchr(bar, '|')) {
-            *bar = '/';
-        }
-        snprintf(text + length, size - (size_t)length, ", or %s", words);
-    }
-}
-
-// --- near misses ---------------------------------------------------------------------------------
-
-/// Edits between two words: insert, delete, replace, exchange two neighbours.
-/// Based on: F. Damerau. A technique for computer detection and correction of spelling errors.
-/// CACM 1964 (the restricted form: no part is edited twice).
-static size_t edit_distance(const char *a, const char *b)
-{
-    enum { LONGEST = 40 };
-    size_t rows[3][LONGEST + 1];
-    size_t a_length = strlen(a), b_length = strlen(b);
-    if (a_length > LONGEST || b_length > LONGEST) {
-        return SIZE_MAX;
-    }
-    size_t *before = rows[0], *last = rows[1], *now = rows[2];
-    for (size_t j = 0; j <= b_length; j++) {
-        last[j] = j;
-        before[j] = 0;
-    }
-    for (size_t i = 1; i <= a_length; i++) {
-        now[0] = i;
-        for (size_t j = 1; j <= b_length; j++) {
-            size_t replaced = last[j - 1] + (a[i - 1] != b[j - 1]);
-            size_t dropped = (last[j] < now[j - 1] ? last[j] : now[j - 1]) + 1;
-            now[j] = replaced < dropped ? replaced : dropped;
-            bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (exchanged && before[j - 2] + 1 < now[j]) {
-                now[j] = before[j - 2] + 1;
-            }
-        }
-        size_t *oldest = before;
-        before = last;
-        last = now;
-        now = oldest;
-    }
-    return last[b_length];
-}
-
-/// Distance of a known word from the written one. It is 1 if the known one begins with the written
-/// one, of 4 letters or more.
-static size_t word_distance(const char *written, const char *known)
-{
-    size_t length = strlen(written);
-    if (length >= 4 && strncmp(written, known, length) == 0) {
-        return 1;
-    }
-    return edit_distance(written, known);
-}
-
-/// A third of the letters may be wrong.
-static size_t distance_limit(const char *written)
-{
-    return strlen(written) / 3 + 1;
-}
-
-const char *option_nearest(command_id command, const char *name)
-{
-    size_t best = distance_limit(name);
-    const char *nearest = NULL;
-    for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
-        const char *names[2] = {o->name, o->alias};
-        for (int k = 0; k < 2; k++) {
-            if (names[k] == NULL || strlen(names[k]) < 3) {
-                continue;
-            }
-            size_t distance = word_distance(name, names[k]);
-            if (distance < best) {
-                best = distance;
-                nearest = names[k];
-            }
-        }
-    }
-    return nearest;
-}
-
-const char *command_nearest(const char *name)
-{
-    size_t best = distance_limit(name);
-    const char *nearest = NULL;
-    for (int i = 0; i < COMMAND_COUNT; i++) {
-        size_t distance = word_distance(name, command_table()[i].name);
-        if (distance < best) {
-            best = distance;
-            nearest = command_table()[i].name;
-        }
-    }
-    return nearest;
-}
-
 // --- values --------------------------------------------------------------------------------------
 
 /// Index of `word` among "a|b|c", or −1.
@@ -219,10 +42,26 @@ static int find_choice(const char *choices, const char *word, size_t length)
     return -1;
 }
 
+/// Index of the choice that a synonym stands for, or −1. @param synonyms "word=choice|...", or NULL
+static int find_synonym(const option *o, const char *word, size_t length)
+{
+    for (const char *at = o->synonyms; at != NULL;) {
+        const size_t end = strcspn(at, "|"), name = strcspn(at, "=");
+        if (name == length && strncmp(at, word, length) == 0) {
+            return find_choice(o->choices, at + name + 1, end - name - 1);
+        }
+        at = at[end] == '|' ? at + end + 1 : NULL;
+    }
+    return -1;
+}
+
 static int parse_choice(command_id command, const option *o, const char *text, size_t length,
                         option_value *value)
 {
     value->choice = find_choice(o->choices, text, length);
+    if (value->choice < 0) {
+        value->choice = find_synonym(o, text, length);
+    }
     if (value->choice >= 0) {
         return EXIT_DONE;
     }
@@ -230,8 +69,11 @@ static int parse_choice(command_id command, const option *o, const char *text, s
         return usage_error(command, "%s %.*s: not built yet; give %s", o->name, (int)length, text,
                            o->choices);
     }
-    return usage_error(command, "%s: '%.*s' is not one of %s", o->name, (int)length, text,
-                       o->choices);
+    char nearest[TEXT_SIZE];
+    choice_nearest(o->choices, text, length, nearest, sizeof nearest);
+    return usage_error(command, "%s: '%.*s' is not one of %s%s%s%s", o->name, (int)length, text,
+                       o->choices, nearest[0] != '\0' ? "; did you mean " : "", nearest,
+                       nearest[0] != '\0' ? "?" : "");
 }
 
 static int parse_list(command_id command, const option *o, const char *text, option_value *value)
@@ -262,7 +104,9 @@ static int parse_number(command_id command, const option *o, const char *text, o
     if (o->kind == KIND_WHOLE) {
         bool negative =
             text[0] == '-' && number_parse_whole(text + 1, &value->whole) != NUMBER_NONE;
-        result = negative ? NUMBER_TOO_LARGE : number_parse_whole(text, &value->whole);
+        result = negative   ? NUMBER_TOO_LARGE
+                 : o->sides ? number_parse_side(text, &value->whole)
+                            : number_parse_whole(text, &value->whole);
         // as whole numbers: a double cannot hold all of them
         outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
     } else if (o->kind == KIND_SIZE) {
@@ -274,9 +118,10 @@ static int parse_number(command_id command, const option *o, const char *text, o
     }
     if (result == NUMBER_NONE) {
         return usage_error(command, "%s: '%s' is not a %s; give %s", o->name, text,
-                           o->kind == KIND_WHOLE  ? "whole number"
-                           : o->kind == KIND_SIZE ? "size"
-                                                  : "number",
+                           o->sides                ? "side of a square, such as 1024 or 1k"
+                           : o->kind == KIND_WHOLE ? "whole number"
+                           : o->kind == KIND_SIZE  ? "size"
+                                                   : "number",
                            range);
     }
     if (result == NUMBER_TOO_LARGE || outside) {
@@ -319,6 +164,16 @@ const option *option_find(command_id command, const char *name, size_t length)
     for (const option *o = option_after(command, NULL); o != NULL; o = option_after(command, o)) {
         if (same_word(o->name, name, length) || same_word(o->alias, name, length)) {
             return o;
+        }
+    }
+    return NULL;
+}
+
+const char *option_find_given(const option_value *values, const named_option *named, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (values[named[i].id].given) {
+            return named[i].name;
         }
     }
     return NULL;
@@ -367,6 +222,33 @@ static int keep_repeated(command_id command, const option *o, const char *text,
     return EXIT_DONE;
 }
 
+/// Whether a word is the value of a flag that may have one: "-", or the name of a .json.
+static bool is_optional_value(const char *word)
+{
+    static const char ending[] = ".json", probes[] = ".probes.json";
+    const size_t length = strlen(word), size = sizeof ending - 1, longer = sizeof probes - 1;
+    return strcmp(word, "-") == 0 ||
+           (length > size && word[0] != '-' && strcmp(word + length - size, ending) == 0 &&
+            !(length > longer && strcmp(word + length - longer, probes) == 0));
+}
+
+/// A flag, and its value if it may have one.
+static int parse_flag(command_id command, int count, char **words, int *at, const option *o,
+                      const char *equals, option_value *value)
+{
+    if (o->value == NULL) {
+        return equals ? usage_error(command, "%s takes no value", o->name) : EXIT_DONE;
+    }
+    if (equals != NULL) {
+        return parse_value(command, o, equals + 1, value);
+    }
+    if (*at + 1 < count && is_optional_value(words[*at + 1])) {
+        *at += 1;
+        value->text = words[*at];
+    }
+    return EXIT_DONE;
+}
+
 /// Reads the option at words[*at] and its value, if it has one. *at ends on its last word.
 static int parse_option(command_id command, int count, char **words, int *at, command_line *parsed)
 {
@@ -383,7 +265,7 @@ static int parse_option(command_id command, int count, char **words, int *at, co
     option_value *value = &parsed->values[o->id];
     value->given = true;
     if (o->kind == KIND_FLAG) {
-        return equals ? usage_error(command, "%s takes no value", o->name) : EXIT_DONE;
+        return parse_flag(command, count, words, at, o, equals, value);
     }
     const char *text = equals ? equals + 1 : NULL;
     if (text == NULL) {
@@ -407,6 +289,12 @@ static void set_defaults(command_id command, command_line *parsed)
     }
 }
 
+/// Whether an operand after the last may name the output, as -o does.
+static bool has_output(command_id command)
+{
+    return option_find(command, "-o", 2) != NULL;
+}
+
 static const char *operand_names(command_id command)
 {
     return command == COMMAND_COMPARE ? "two operands, A and B"
@@ -415,14 +303,20 @@ static const char *operand_names(command_id command)
                                       : "one SCENE";
 }
 
-bool arguments_ask_for_help(int count, char **words)
+static int refuse_operand(command_id command, const char *word)
+{
+    return usage_error(command, "takes %s%s; '%s' is one too many", operand_names(command),
+                       has_output(command) ? " and one output" : "", word);
+}
+
+help_request arguments_ask_for_help(int count, char **words)
 {
     for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
         if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
-            return true;
+            return i + 1 < count && strcmp(words[i + 1], "all") == 0 ? HELP_ALL : HELP_COMMON;
         }
     }
-    return false;
+    return HELP_NONE;
 }
 
 int arguments_parse(command_id command, int count, char **words, command_line *parsed)
@@ -430,6 +324,7 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
     *parsed = (command_line){.command = command, .words = words, .word_count = count};
     set_defaults(command, parsed);
     int operands = 0, wanted = command_operand_limit(command);
+    const char *output = NULL; // an operand
     bool options_ended = false;
     for (int i = 0; i < count; i++) {
         if (!options_ended && strcmp(words[i], "--") == 0) {
@@ -443,13 +338,21 @@ int arguments_parse(command_id command, int count, char **words, command_line *p
             return usage_error(command, "needs %s; a name is empty", operand_names(command));
         } else if (operands < wanted) {
             parsed->operands[operands++] = words[i];
+        } else if (output == NULL && has_output(command) && words[i][0] != '\0') {
+            output = words[i];
         } else {
-            return usage_error(command, "takes %s; '%s' is one too many", operand_names(command),
-                               words[i]);
+            return refuse_operand(command, words[i]);
         }
     }
     if (operands < command_table()[command].operand_count) {
         return usage_error(command, "needs %s", operand_names(command));
+    }
+    option_value *named = &parsed->values[OPTION_OUTPUT];
+    if (output != NULL && named->given) {
+        return refuse_operand(command, output);
+    }
+    if (output != NULL) {
+        *named = (option_value){.given = true, .text = output};
     }
     return EXIT_DONE;
 }

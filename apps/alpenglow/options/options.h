@@ -192,7 +192,7 @@ typedef enum option_group {
 } option_group;
 
 typedef enum option_kind {
-    KIND_FLAG,   // no value
+    KIND_FLAG,   // no value; with `value`, one may follow: - or a .json
     KIND_TEXT,   // any text that is not empty
     KIND_CHOICE, // one of `choices`
     KIND_LIST,   // some of `choices`, with commas between
@@ -206,12 +206,15 @@ typedef struct option {
     unsigned commands; // which commands have it: IN_…
     option_group group;
     option_kind kind;
+    unsigned common;           // commands whose --help begins with it; --help all has the others
     bool repeats;              // may be given several times (KIND_TEXT): command_line.repeated
     const char *name;          // "--size"
     const char *alias;         // a second spelling, or NULL
     const char *value;         // name of its value, NULL for a flag
     const char *choices;       // "auto|keep|charts", or NULL
     const char *later_choices; // choices of the contract that are not built yet, or NULL
+    const char *synonyms;      // "lightmap=light|...": other words for choices, or NULL
+    bool sides;                // KIND_WHOLE: a side of a square, also 1k or 1024x1024
     double minimum, maximum;
     const char *unit;    // "metres", or NULL
     const char *initial; // the default, parsed like a given value; or NULL
@@ -228,6 +231,14 @@ typedef struct option_value {
 } option_value;
 
 enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
+
+/// An option by the name that messages have.
+typedef struct named_option {
+    option_id id;
+    const char *name;
+} named_option;
+/// The name of the first of these options that is given, or NULL.
+const char *option_find_given(const option_value *values, const named_option *named, size_t count);
 
 /// A parsed command line.
 typedef struct command_line {
@@ -278,15 +289,26 @@ enum { OPTION_FACTS_SIZE = 256 }; ///< size for option_facts
 /// The known option or command nearest to a misspelt one, or NULL if none is near.
 const char *option_nearest(command_id command, const char *name);
 const char *command_nearest(const char *name);
+/// Writes the choice nearest to a misspelt word, "" if none is near. @param choices "a|b|c", or
+/// NULL
+void choice_nearest(const char *choices, const char *word, size_t length, char *nearest,
+                    size_t size);
 
-/// Whether one of the words before "--" is --help or -h.
-bool arguments_ask_for_help(int count, char **words);
+typedef enum help_request {
+    HELP_NONE,
+    HELP_COMMON, // the options that people use, where a command marks some
+    HELP_ALL
+} help_request;
+/// Whether one of the words before "--" is --help or -h, and the next one is all.
+help_request arguments_ask_for_help(int count, char **words);
 /// Parses the words after the command's name. @return EXIT_DONE, or EXIT_USAGE after a message.
 int arguments_parse(command_id command, int count, char **words, command_line *parsed);
 
 /// Strict numbers: the whole text, no blanks, no hexadecimal, no NaN, no infinity.
 typedef enum number_result { NUMBER_OK, NUMBER_NONE, NUMBER_TOO_LARGE } number_result;
 number_result number_parse_whole(const char *text, uint64_t *number);
+/// A side of a square: "1024", "1k" or "1024x1024".
+number_result number_parse_side(const char *text, uint64_t *number);
 number_result number_parse_size(const char *text, uint64_t *number);
 number_result number_parse_real(const char *text, double *number);
 /// Exactly `count` numbers of at most 1e9 with commas between; a slash ends a list too.
@@ -296,9 +318,9 @@ const char *number_parse_list(const char *text, double *numbers, int count);
 /// Prints "alpenglow COMMAND: message" and a hint to --help, to stderr. @return EXIT_USAGE
 int usage_error(command_id command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-int help_print(void);                       ///< of the whole program, to stdout
-int help_print_command(command_id command); ///< to stdout
-int manual_print(void);                     ///< alpenglow.1, as roff, to stdout
+int help_print(void); ///< of the whole program, to stdout
+int help_print_command(command_id command, help_request request); ///< to stdout
+int manual_print(void); ///< alpenglow.1, as roff, to stdout
 int manual_print_command(command_id command);
 int completion_print(const char *shell); ///< "bash", "zsh" or "fish"; to stdout
 

@@ -40,6 +40,16 @@ static const option rows[] = {
              "hemicube: radiosity by the five faces of half a cube around each texel, "
              "without an estimate of the error.\n"
              "paths: the reference path tracer, unbiased and many times slower."},
+    {.id = OPTION_GATHER,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--gather",
+     .value = "rays|hemicube|paths",
+     .choices = "rays|hemicube|paths",
+     .initial = "rays",
+     .help = "Method of gathering bounced light for the map that --with lightmap bakes, as in "
+             "bake."},
     {.id = OPTION_HEMICUBE,
      .commands = IN_BAKE,
      .group = GROUP_LIGHT,
@@ -102,13 +112,15 @@ static const option rows[] = {
              "sky. They sum to irradiance.exr exactly. Beyond 16 the last is \"others\"."},
     {.id = OPTION_LIGHTMAP_AS,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_LIGHT,
      .kind = KIND_CHOICE,
      .name = "--lightmap-as",
      .value = "emissive|moz|extras|three|babylon",
      .choices = "emissive|moz|extras|three|babylon",
-     .help = "Form of the light in -o, with its own coordinate set; needs --maps "
-             "light. It includes the light of the file's lamps. Switch those off in "
+     .help = "Form of the light in -o, with its own coordinate set. Default emissive; three "
+             "and babylon by the name of -o. It includes the light of the file's lamps. Switch "
+             "those off in "
              "the viewer, or bake --direct off (not with emissive).\n"
              "emissive: the light that leaves each surface, as emission in 8-bit sRGB "
              "(KHR_materials_emissive_strength) with base colour 0. Textures are no "
@@ -181,13 +193,15 @@ static const option rows[] = {
              "their diffuse colour show metals black either way."},
     {.id = OPTION_SKY,
      .commands = SKY_COMMANDS,
+     .common = IN_BAKE,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sky",
-     .value = "FILE|R,G,B|R,G,B/R,G,B|clear",
+     .value = "FILE|L|R,G,B|R,G,B/R,G,B|clear",
      .help = "Light from outside. Default: black.\n"
              "FILE: an equirectangular .hdr or .exr.\n"
-             "R,G,B: radiance from every direction, W/(sr m2), linear.\n"
+             "R,G,B: radiance from every direction, W/(sr m2), linear. L: the same in all "
+             "three.\n"
              "R,G,B/R,G,B: radiance above and below the horizon.\n"
              "clear: a clear sky around the --sun, which it needs."},
     {.id = OPTION_SKY_TURN,
@@ -213,6 +227,7 @@ static const option rows[] = {
      .help = "Factor on the sky's radiance."},
     {.id = OPTION_SUN,
      .commands = LIGHT_COMMANDS,
+     .common = IN_BAKE,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sun",
@@ -233,6 +248,7 @@ static const option rows[] = {
              "for --sun, and 0 for directional lights of the scene."},
     {.id = OPTION_LAMP,
      .commands = LIGHT_COMMANDS,
+     .common = IN_BAKE,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .repeats = true,

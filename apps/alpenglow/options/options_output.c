@@ -5,6 +5,7 @@
 static const option rows[] = {
     {.id = OPTION_OUTPUT,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "-o",
@@ -12,8 +13,9 @@ static const option rows[] = {
      .value = "OUT.glb|OUT.gltf|OUT.dae|OUT.obj",
      .help = "The baked scene. A .gltf has its buffers and images beside it, an .obj "
              "its .mtl and images, a .dae its images. A .dae needs a SCENE of COLLADA. "
-             "For OUT.json and OUT.babylon see --lightmap-as. Without -o, --maps-dir "
-             "is needed."},
+             "For OUT.json and OUT.babylon see --lightmap-as. -o may be left out before the name. "
+             "Default, without --maps-dir: the name of SCENE with .baked before its ending, in the "
+             "current folder."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
      .group = GROUP_OUTPUT,
@@ -44,14 +46,18 @@ static const option rows[] = {
              "exposure."},
     {.id = OPTION_MAPS,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
      .choices = "ao|bent|light|sh|direction|probes",
+     .synonyms = "lightmap=light|lightmaps=light|lighting=light|occlusion=ao|ambient-occlusion=ao|"
+                 "AO=ao",
      .initial = "ao",
-     .help = "Maps to bake. -o needs ao, or light and --lightmap-as; all others go to "
-             "--maps-dir alone.\n"
+     .help = "Maps to bake, with commas between: ao, light and others. An option that only light "
+             "has, such as --sky, --sun or --bounces, "
+             "stands for light. OUT holds ao and light; all others go to --maps-dir alone.\n"
              "ao: ambient occlusion, 1 open, 0 closed.\n"
              "bent: bent normals, the mean open direction in world space, from the "
              "same rays.\n"
@@ -65,6 +71,7 @@ static const option rows[] = {
              "light, and shares its solution."},
     {.id = OPTION_MAPS_FOLDER,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "--maps-dir",
@@ -106,12 +113,14 @@ static const option rows[] = {
              "several rays each. - prints it instead of the summary."},
     {.id = OPTION_REPORT,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "--report",
      .value = "OUT.html",
-     .help = "Write a report as one HTML page: figures, warnings, pictures of the maps "
-             "and their errors, time of each stage, objects on the atlas. It loads "
+     .help = "Write a report as one HTML page: figures, a picture of the scene, warnings, "
+             "pictures of the maps and their errors, time of each stage, objects on the atlas. It "
+             "loads "
              "nothing and runs no script. It has the first 16 pages of an atlas."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
@@ -125,8 +134,9 @@ static const option rows[] = {
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "--json",
-     .help = "Print JSON instead of tables. It has all findings; text has the first 8 "
-             "of a kind."},
+     .value = "[-|FILE.json]",
+     .help = "Print JSON instead of tables, or write it to a file. It has all findings; text has "
+             "the first 8 of a kind, and the first 20 rows of a table."},
     {.id = OPTION_PICTURES,
      .commands = IN_INFO,
      .group = GROUP_OUTPUT,
@@ -151,6 +161,7 @@ static const option rows[] = {
     {.id = OPTION_FORCE,
      .commands =
          RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW,
+     .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",

@@ -83,7 +83,7 @@ static const option rows[] = {
      .kind = KIND_FLAG,
      .name = "-h",
      .alias = "--help",
-     .help = "Print this help."},
+     .help = "Print help. --help all: every option, in full."},
 };
 
 const option_part option_part_run = {rows, sizeof rows / sizeof *rows};

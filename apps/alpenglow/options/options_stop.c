@@ -5,6 +5,7 @@
 static const option rows[] = {
     {.id = OPTION_QUALITY,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_STOP,
      .kind = KIND_CHOICE,
      .name = "--quality",
@@ -27,6 +28,25 @@ static const option rows[] = {
              "the rays of occlusion, and four times those of light. Light by --gather "
              "rays has a default of 1, unless --samples is given. That default also ends "
              "by a limit of rays, with the error that it has then."},
+    {.id = OPTION_QUALITY,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_CHOICE,
+     .name = "--quality",
+     .value = "preview|medium|high",
+     .choices = "preview|medium|high",
+     .help = "Preset of --error: preview is 4, medium is 1, high is 0.4."},
+    {.id = OPTION_ERROR,
+     .commands = IN_RENDER,
+     .group = GROUP_LIGHT,
+     .kind = KIND_REAL,
+     .name = "--error",
+     .value = "PCT",
+     .minimum = 0.01,
+     .maximum = 100.0,
+     .unit = "percent",
+     .help = "Wanted error of the map that --with lightmap bakes, as in bake; instead of "
+             "--texel-samples."},
     {.id = OPTION_TIME_LIMIT,
      .commands = IN_BAKE,
      .group = GROUP_STOP,

@@ -5,21 +5,24 @@
 static const option rows[] = {
     {.id = OPTION_SIZE,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_WHAT,
      .kind = KIND_WHOLE,
      .name = "--size",
      .value = "N",
+     .sides = true,
      .minimum = 1,
      .maximum = 16384,
      .unit = "texels",
      .initial = "1024",
-     .help = "Side of an atlas page. Time and memory grow with its square."},
+     .help = "Side of an atlas page, such as 1024 or 1k. Time and memory grow with its square."},
     {.id = OPTION_SIZE,
      .commands = IN_RENDER | IN_VIEW,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--size",
      .value = "N",
+     .sides = true,
      .minimum = 1,
      .maximum = 16384,
      .unit = "texels",
@@ -41,6 +44,7 @@ static const option rows[] = {
              "auto: the highest density at which everything fits on one page."},
     {.id = OPTION_ATLAS,
      .commands = IN_BAKE,
+     .common = IN_BAKE,
      .group = GROUP_WHAT,
      .kind = KIND_CHOICE,
      .name = "--atlas",
@@ -49,7 +53,8 @@ static const option rows[] = {
      .initial = "auto",
      .help = "Layout of the maps.\n"
              "auto: keep if the second UV set is valid, else charts.\n"
-             "keep: the scene's second UV set, inside [0, 1] and without overlaps.\n"
+             "keep: the scene's second UV set, inside [0, 1]. Overlaps on up to 1 % of its texels "
+             "cause a warning.\n"
              "charts: new charts.\n"
              "vertex: no map, but a value at each vertex, fitted for linear "
              "interpolation over the triangles. Warns of triangles that are too large "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Maps of light that materials name for viewers, MOZ_lightmap and the file of extras.lightmap: read
-// where somebody asks for them, for nothing else here is lit by them.
+// at request, because baking never needs them.
+#include "base/half.h"
 #include "base/memory.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_read.h"
@@ -24,6 +25,29 @@ typedef struct reading {
     size_t origin_capacity, image_capacity;
 } reading;
 
+/// The four channels of a KTX2, whose scale is the intensity of the extras.
+static alp_result read_ktx2(const alpi_gltf_document *document, const uint8_t *bytes, size_t size,
+                            alp_image **image)
+{
+    alp_context *context = document->context;
+    alpi_half_texture texture = {0};
+    ALP_TRY(alpi_ktx2_read(context, document->path, bytes, size, &texture));
+    const alp_image_info info = {texture.width, texture.height, 4, ALP_COMPONENT_FLOAT};
+    alp_result result =
+        texture.channels == 4 && texture.depth == 0
+            ? alp_image_create(context, info, image)
+            : alpi_fail(context, ALP_ERROR_UNSUPPORTED,
+                        "%s: its light is a KTX2 of another form than RGBA16F in one layer",
+                        document->path);
+    const size_t count = (size_t)4 * texture.width * texture.height;
+    for (size_t i = 0; result == ALP_OK && i < count; i++) {
+        const uint8_t *half = texture.texels + 2 * i;
+        alp_image_floats(*image)[i] = alpi_half_to_float((uint16_t)(half[0] | half[1] << 8));
+    }
+    alpi_release(context, texture.texels);
+    return result;
+}
+
 /// A file beside the asset. What an EXR says of its scale is in what comes out.
 static alp_result read_file(const alpi_gltf_document *document, const char *uri, const char *owner,
                             alp_image **image)
@@ -32,13 +56,10 @@ static alp_result read_file(const alpi_gltf_document *document, const char *uri,
     uint8_t *bytes = NULL;
     size_t size = 0;
     ALP_TRY(alpi_gltf_uri_read(document, uri, owner, &bytes, &size));
-    alp_result result =
-        size >= sizeof ktx2 && memcmp(bytes, ktx2, sizeof ktx2) == 0
-            ? alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
-                        "%s: %s: its light is a KTX2, which is not read; bake it with "
-                        "--lightmap-format exr or --lightmap-as moz",
-                        document->path, owner)
-            : alpi_image_decode(document->context, document->path, bytes, size, image);
+    const bool is_ktx2 = size >= sizeof ktx2 && memcmp(bytes, ktx2, sizeof ktx2) == 0;
+    const alp_result result =
+        is_ktx2 ? read_ktx2(document, bytes, size, image)
+                : alpi_image_decode(document->context, document->path, bytes, size, image);
     alpi_release(document->context, bytes);
     return result;
 }
@@ -98,6 +119,15 @@ static alp_result read_moz(reading *r, json_t *material, const char *owner, alpi
     return find_image(r, &from, owner, &map->texture.image);
 }
 
+static alpi_light_map_units read_units(json_t *lightmap)
+{
+    const char *units = alpi_gltf_text(lightmap, "units");
+    return units == NULL                         ? ALPI_LIGHT_MAP_IRRADIANCE
+           : strcmp(units, "irradiance/pi") == 0 ? ALPI_LIGHT_MAP_IRRADIANCE_PI
+           : strcmp(units, "radiance") == 0      ? ALPI_LIGHT_MAP_RADIANCE
+                                                 : ALPI_LIGHT_MAP_IRRADIANCE;
+}
+
 static alp_result read_extras(reading *r, json_t *material, const char *owner, alpi_light_map *map)
 {
     const alpi_gltf_document *document = r->reader->document;
@@ -122,6 +152,7 @@ static alp_result read_extras(reading *r, json_t *material, const char *owner, a
     map->texture.uv_set = (uint32_t)set;
     map->texture.wrap_u = map->texture.wrap_v = ALPI_WRAP_CLAMP;
     map->scale = stated ? 1.0f : alpi_gltf_float(intensity);
+    map->units = read_units(lightmap);
     alpi_gltf_blend_texture(material, "lightmap", &map->texture);
     return find_image(r, &from, owner, &map->texture.image);
 }
@@ -146,7 +177,7 @@ alp_result alpi_gltf_read_light_maps(const alp_scene *scene, alpi_light_maps *ma
     *maps = (alpi_light_maps){0};
     ALPI_TRY_NEW(scene->context, maps->maps, scene->material_count);
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        maps->maps[i] = (alpi_light_map){alpi_texture_none(), 1.0f};
+        maps->maps[i] = (alpi_light_map){alpi_texture_none(), 1.0f, ALPI_LIGHT_MAP_IRRADIANCE};
     }
     const alpi_gltf_document *document = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
     if (document == NULL) {
@@ -167,4 +198,30 @@ void alpi_light_maps_release(alp_context *context, alpi_light_maps *maps)
     alpi_release(context, maps->images);
     alpi_release(context, maps->maps);
     *maps = (alpi_light_maps){0};
+}
+
+static void destroy_kept(alp_context *context, void *data)
+{
+    alpi_light_maps_release(context, data);
+    alpi_release(context, data);
+}
+
+alp_result alp_scene_read_light_maps(alp_scene *scene)
+{
+    if (scene == NULL) {
+        return ALP_ERROR_INVALID_ARGUMENT;
+    }
+    alpi_attachment *kept = &scene->attachments[ALPI_ATTACHMENT_LIGHT_MAPS];
+    if (kept->data != NULL) {
+        return ALP_OK;
+    }
+    alpi_light_maps *maps = NULL;
+    ALPI_TRY_NEW(scene->context, maps, 1);
+    const alp_result result = alpi_gltf_read_light_maps(scene, maps);
+    if (result != ALP_OK) {
+        destroy_kept(scene->context, maps);
+        return result;
+    }
+    *kept = (alpi_attachment){maps, destroy_kept};
+    return ALP_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef ALPI_FORMATS_GLTF_SCENE_H
 #define ALPI_FORMATS_GLTF_SCENE_H
 
-#include "scene/scene.h"
+#include "scene/light_maps.h"
 
 /// Reads a .gltf or .glb into a scene and keeps the document with it (ALPI_ATTACHMENT_DOCUMENT).
 alp_result alpi_gltf_read_scene(alp_context *context, const char *path, alp_scene **scene);
@@ -33,21 +33,10 @@ typedef struct alpi_image_source {
 alp_result alpi_gltf_image_source(const alp_scene *scene, uint32_t image,
                                   alpi_image_source *source);
 
-/// A map of light that a material shows.
-typedef struct alpi_light_map {
-    alpi_texture texture; // image: index into the list of images, ALPI_NONE = no map
-    float scale;          // what texels are multiplied by
-} alpi_light_map;
-typedef struct alpi_light_maps {
-    alpi_light_map *maps; // [materials of the scene]
-    uint32_t image_count;
-    alp_image **images; // [image_count], linear
-} alpi_light_maps;
 /// Reads the maps of light that the materials of a scene's document name for viewers: MOZ_lightmap,
-/// else extras.lightmap. A scene without a document has none. Such images are not kept with the
-/// scene, which has no use for them.
+/// else extras.lightmap. A scene without a document has none.
 /// @param maps out; released by alpi_light_maps_release, also on failure
-/// @return ALP_OK; what reading an image gives; UNSUPPORTED (a KTX2)
+/// @return ALP_OK; what reading an image gives; UNSUPPORTED (a KTX2 other than RGBA16F)
 alp_result alpi_gltf_read_light_maps(const alp_scene *scene, alpi_light_maps *maps);
 void alpi_light_maps_release(alp_context *context, alpi_light_maps *maps);
 

@@ -25,8 +25,8 @@ alpenglow render lit.gltf --with reference -o a.png --resolution 8x8 --samples 1
     --warnings-as-errors >/dev/null 2>&1
 echo "$?, $(ls a.png)"
 echo "== many are counted"
-many=$(printf ',%s' $(for i in {1..18}; do lamp 0 0 0.$((i + 10)) 0; done))
+many=$(printf ',%s' $(for i in {1..22}; do lamp 0 0 0.$((i + 10)) 0; done))
 glow='{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"metallicFactor":0}}'
-room "$glow" "${many#,}$(printf ',{"mesh":0,"scale":[%d,4,4]}' {2..17})" "$lights" >many.gltf
-alpenglow info many.gltf 2>/dev/null | grep '^light ' | tail -n 18
+room "$glow" "${many#,}$(printf ',{"mesh":0,"scale":[%d,4,4]}' {2..22})" "$lights" >many.gltf
+alpenglow info many.gltf 2>/dev/null | grep '^light ' | tail -n 22
 alpenglow info many.gltf --json 2>/dev/null | grep -c '"kind"'

@@ -71,8 +71,8 @@ def ask(command, *words):
 
 
 def long_options(command, name):
-    """What --help says stands under a command, without what it says is not built."""
-    text = ask(command, name, "--help").stdout.split("\nNot built yet")[0]
+    """What --help all says stands under a command, without what it says is not built."""
+    text = ask(command, name, "--help", "all").stdout.split("\nNot built yet")[0]
     lines = [line for line in text.splitlines() if re.match(r"  -", line)]
     return [word.strip(",") for line in lines for word in line.split() if word.startswith("--")]
 

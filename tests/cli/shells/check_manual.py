@@ -3,7 +3,7 @@
 """The manual pages: nothing that roff warns of, nothing lost on the way, examples that run.
 
     check_manual.py warnings ALPENGLOW   groff and mandoc, as far as they are here, find no fault
-    check_manual.py text ALPENGLOW       what --help says of options stands in the page, letter by letter
+    check_manual.py text ALPENGLOW       what --help all says of options stands in the page, letter by letter
     check_manual.py examples ALPENGLOW   every example runs, made small
 
 Exit status: 0 good, 1 not, 77 no program that shows pages is there.
@@ -70,7 +70,7 @@ def flat(text):
 
 
 def paragraphs(text):
-    """What --help says: each line that begins an option, and each paragraph under one."""
+    """What --help all says: each line that begins an option, and each paragraph under one."""
     paragraph = ""
     for line in text.split("\nNot built yet")[0].splitlines():
         if re.match(r" {8}\S", line) and not line.lstrip().startswith(("Range ", "Default ")):
@@ -92,7 +92,7 @@ def check_text(command):
             yield f"{name}: has the sections {titles}"
         if name == "alpenglow":
             continue
-        said = run([command, name.split("-")[1], "--help"]).stdout
+        said = run([command, name.split("-")[1], "--help", "all"]).stdout
         options = said[re.search(r"\n[A-Z][a-z ]+:\n", said).start():].split("\nSCENE is")[0]
         options = options.split("\nExit status")[0]
         for program in programs():

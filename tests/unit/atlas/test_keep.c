@@ -99,6 +99,37 @@ TEST(overlap_is_said)
     check_fault((const float(*)[2])uvs, "overlap", "with");
 }
 
+/// A corner of one square lies over a corner of the other. KEEP takes it up to 1 % of the texels
+/// and names the triangles; AUTO makes charts.
+TEST(few_overlaps_are_warned_of)
+{
+    static const float depths[] = {0.02f, 0.06f}; // of a corner: 2 and 15 texels of 740
+    for (int i = 0; i < 2; i++) {
+        float uvs[8][2];
+        memcpy(uvs, GOOD, sizeof uvs);
+        for (int k = 4; k < 8; k++) {
+            uvs[k][0] += GOOD[0][0] - GOOD[4][0] + 0.3f - depths[i];
+            uvs[k][1] += GOOD[0][1] - GOOD[4][1] + 0.3f - depths[i];
+        }
+        alp_context *context = test_context(1);
+        alp_atlas_info info;
+        test_log_clear();
+        const alp_result result = keep(context, (const float(*)[2])uvs, ALP_ATLAS_KEEP, &info);
+        const bool few = result == ALP_OK;
+        assert_int_equal(few, i == 0);
+        if (few) {
+            assert_int_equal(info.mode, ALP_ATLAS_KEEP);
+            assert_true(info.overlapping_texels > 0);
+        } else {
+            assert_int_equal(result, ALP_ERROR_INVALID_DATA);
+        }
+        assert_int_equal(test_log_has("kept-overlap"), few);
+        ASSERT_OK(context, keep(context, (const float(*)[2])uvs, ALP_ATLAS_AUTO, &info));
+        assert_int_equal(info.mode, ALP_ATLAS_CHARTS);
+        alp_context_destroy(context);
+    }
+}
+
 TEST_WITH_CONTEXT(sharing_a_texel_is_no_overlap, 1)
 {
     float uvs[8][2];

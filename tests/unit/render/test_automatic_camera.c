@@ -176,3 +176,71 @@ TEST_WITH_CONTEXT(a_camera_of_the_scene_is_taken_as_it_is, 1)
     assert_same(&camera, &own);
     alp_scene_destroy(scene);
 }
+
+/// The largest places of corners to the right, left, top and bottom of a picture, whose edges
+/// are 1.
+static void project(const alp_scene *scene, const alp_camera *c, float aspect, float edges[4])
+{
+    const vec3 eye = vec3_load(c->position), none = {0.0f, 0.0f, 0.0f};
+    const vec3 forward = vec3_normalize_or(vec3_sub(vec3_load(c->target), eye), none);
+    const vec3 right = vec3_normalize_or(vec3_cross(forward, vec3_load(c->up)), none);
+    const vec3 up = vec3_cross(right, forward);
+    edges[0] = edges[1] = edges[2] = edges[3] = -INFINITY;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        vec3 corners[3];
+        alpi_triangle_corners(scene, t, corners);
+        for (int k = 0; k < 3; k++) {
+            const vec3 to = vec3_sub(corners[k], eye);
+            const float half = vec3_dot(to, forward) * tanf(0.5f * c->vertical_fov);
+            assert_true(half > 0.0f);
+            const float x = vec3_dot(to, right) / (half * aspect), y = vec3_dot(to, up) / half;
+            edges[0] = fmaxf(edges[0], x);
+            edges[1] = fmaxf(edges[1], -x);
+            edges[2] = fmaxf(edges[2], y);
+            edges[3] = fmaxf(edges[3], -y);
+        }
+    }
+}
+
+/// Two opposite edges of the picture are reached up to the margin, and none is passed.
+TEST_WITH_CONTEXT(things_fill_the_frame, 1)
+{
+    static const double sizes[][3] = {{1, 1, 1}, {8, 1, 2}, {1, 9, 1}, {3, 0.2, 3}};
+    static const float aspects[] = {1.0f, 16.0f / 9.0f, 0.5f};
+    for (int i = 0; i < 4 * 3; i++) {
+        test_mesh *mesh = test_mesh_start();
+        add_box(mesh, (double[3]){5, -2, 1}, sizes[i / 3], false, 0);
+        add_box(mesh, (double[3]){5, -2, 1 - sizes[i / 3][2]}, (double[3]){0.1, 0.1, 0.1}, false,
+                0);
+        alp_scene *scene = test_mesh_scene(context, mesh, 0);
+        alp_camera camera = choose(context, scene), before = camera;
+        float e[4];
+        alpi_camera_frame(scene, aspects[i % 3], &camera);
+        project(scene, &camera, aspects[i % 3], e);
+        const float most = fmaxf(fmaxf(e[0], e[1]), fmaxf(e[2], e[3]));
+        ASSERT_NEAR(most, 0.95, 1e-3);
+        const bool wide = fabsf(e[0] - most) < 1e-3f;
+        ASSERT_NEAR(e[wide ? 0 : 2], 0.95, 1e-3);
+        ASSERT_NEAR(e[wide ? 1 : 3], 0.95, 1e-3);
+        for (int k = 0; k < 3; k++) { // it looks the same way
+            const float was = before.target[k] - before.position[k];
+            const float is = camera.target[k] - camera.position[k];
+            const vec3 to = vec3_sub(vec3_load(camera.target), vec3_load(camera.position));
+            const vec3 from = vec3_sub(vec3_load(before.target), vec3_load(before.position));
+            ASSERT_NEAR(is / vec3_length(to), was / vec3_length(from), 1e-4);
+        }
+        alp_scene_destroy(scene);
+    }
+}
+
+TEST_WITH_CONTEXT(a_camera_inside_is_not_moved, 1)
+{
+    test_mesh *mesh = test_mesh_start();
+    add_box(mesh, (double[3]){0, 0, 0}, (double[3]){4, 3, 5}, true, 0);
+    alp_scene *scene = test_mesh_scene(context, mesh, 0);
+    alp_camera camera = choose(context, scene);
+    const alp_camera before = camera;
+    alpi_camera_frame(scene, 2.0f, &camera);
+    assert_same(&camera, &before);
+    alp_scene_destroy(scene);
+}

@@ -80,8 +80,8 @@ TEST(page_is_whole_and_has_its_figures)
     char *text = write_page(&b, &page), wanted[128];
     page_check_form(text);
     page_check_self_contained(text);
-    // Four maps, two of them with a heat map; the layout is no <img>.
-    assert_int_equal(page_count_of(text, "<img "), 6);
+    // The scene, four maps, two of them with a heat map; the layout is no <img>.
+    assert_int_equal(page_count_of(text, "<img "), 7);
     assert_int_equal(page_count_of(text, "<svg class=\"layout\""), 1);
     snprintf(wanted, sizeof wanted, "<dt>Triangles</dt><dd>%u</dd>", b.report.scene.triangles);
     ASSERT_HAS(text, wanted);
@@ -105,6 +105,35 @@ TEST(page_is_whole_and_has_its_figures)
     end(&b);
 }
 
+/// Light where it was baked, else occlusion.
+TEST(the_scene_is_shown_with_what_was_baked)
+{
+    static const unsigned maps[] = {ALP_MAP_AO | ALP_MAP_LIGHT, ALP_MAP_AO};
+    static const char *const said[] = {"With baked light, from its first camera",
+                                       "With baked occlusion, from its first camera"};
+    double means[2][3] = {{0.0}};
+    for (int i = 0; i < 2; i++) {
+        const alp_bake_options options = small_options(maps[i]);
+        baked b = bake_builtin("builtin:cornell", &options);
+        char *text = write_page(&b, NULL);
+        ASSERT_HAS(text, said[i]);
+        alp_image *image = page_find_picture(b.context, text, "Picture of the scene");
+        const size_t count = (size_t)image->info.width * image->info.height;
+        const uint32_t channels = image->info.channels;
+        for (size_t p = 0; p < 3 * count; p++) {
+            means[i][p % 3] += alp_image_bytes(image)[p / 3 * channels + p % 3] / (double)count;
+        }
+        alp_image_destroy(image);
+        free(text);
+        end(&b);
+    }
+    for (int i = 0; i < 2; i++) { // neither black nor white
+        assert_true(means[i][0] > 30.0 && means[i][0] < 225.0);
+    }
+    assert_true(fabs(means[1][0] - means[1][2]) < 1e-9); // occlusion is grey
+    assert_true(means[0][0] > means[0][2] + 3.0);        // the lamp is yellow
+}
+
 TEST(vertices_have_a_page_without_maps)
 {
     alp_bake_options options = small_options(ALP_MAP_AO);
@@ -112,7 +141,7 @@ TEST(vertices_have_a_page_without_maps)
     baked b = bake_builtin("builtin:cornell", &options);
     char *text = write_page(&b, NULL);
     page_check_form(text);
-    assert_null(strstr(text, "data:image"));
+    assert_int_equal(page_count_of(text, "data:image"), 1); // the scene
     assert_null(strstr(text, "id=\"maps\""));
     assert_null(strstr(text, "id=\"passes\""));
     ASSERT_HAS(text, "<dt>Vertices</dt>");

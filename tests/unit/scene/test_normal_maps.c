@@ -78,12 +78,20 @@ TEST_WITH_CONTEXT(normal_maps_that_cannot_be_read_cost_a_warning_when_loaded, 1)
     }
 }
 
+TEST_WITH_CONTEXT(a_normal_texture_that_is_not_there_costs_itself, 1)
+{
+    test_log_clear();
+    alp_scene *scene = drawn_asset(context, NORMAL("'index':4"));
+    assert_true(test_log_has("missing"));
+    assert_int_equal(alp_scene_get_material(scene, 0).normal_texture.image, ALP_NONE);
+    alp_scene_destroy(scene);
+}
+
 TEST_WITH_CONTEXT(malformed_normal_textures_are_refused_as_others_are, 1)
 {
     static const struct {
         const char *material, *words;
-    } cases[] = {{NORMAL("'index':4"), "index"},
-                 {NORMAL("'scale':1"), "index"},
+    } cases[] = {{NORMAL("'scale':1"), "index"},
                  {NORMAL("'index':0,'scale':'big'"), "scale"},
                  {"{'normalTexture':7}", "normalTexture"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# warnings of one text are printed in one line, and of one kind the first eight; a report has all
+. "$(dirname "$0")/../scenes.bash"
+grey='{"pbrMetallicRoughness":{"metallicFactor":0}}'
+lights() { # count, intensity
+    for i in $(seq "$1"); do printf ',{"type":"point","name":"bulb %d","intensity":%s}' "$i" "$2"; done
+}
+nodes() { for i in $(seq "$1"); do printf ',%s' "$(lamp $((i - 1)) 0 1 0)"; done; }
+more=$(nodes 12) same=$(lights 12 -1)
+room "$grey" "${more#,}" "${same#,}" >same.gltf
+alpenglow bake same.gltf --size 8 --ao-samples 4 --maps-dir maps -q --json same.json
+grep -c '"code": "light"' same.json
+other=$(for i in {1..12}; do printf ',{"type":"spot","spot":{"innerConeAngle":-1,"outerConeAngle":%d}}' $((i + 3)); done)
+room "$grey" "${more#,}" "${other#,}" >other.gltf
+alpenglow bake other.gltf --size 8 --ao-samples 4 --maps-dir maps -q -f
+echo "== a path is told once"
+printf 'mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n' >a.obj
+printf 'newmtl m\nmap_Kd none.png\n' >a.mtl
+mkdir sub && cp a.obj a.mtl sub
+alpenglow bake sub/a.obj --size 8 --ao-samples 4 -q 2>&1 | grep -o '^warning: none.png: cannot open'
+echo "== files of other programs"
+for ending in fbx kmz stl usdz FBX blend png txt; do
+    echo x >scene.$ending
+    alpenglow bake scene.$ending
+done
+alpenglow info none.fbx
