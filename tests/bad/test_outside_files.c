@@ -121,7 +121,8 @@ TEST(names_outside)
     snprintf(text[5], 1024, "%%2e./%s/wood.png", name);
     snprintf(text[6], 1024, "..\\%s\\wood.png", name);
     snprintf(text[7], 1024, "https://localhost/wood.png");
-    // Each format has its own addresses: an OBJ knows no escapes and no schemes, and a folder that is not there cannot be left where the system walks the path.
+    // Each format has its own addresses: an OBJ knows no escapes and no schemes, and a folder that
+    // is not there cannot be left where the system walks the path.
     static const bool allowed[3][8] = {{true, false, true, true, true, true, true, false},
                                        {true, false, true, true, true, true, true, false},
                                        {true, true, true, false, false, false, true, false}};
