@@ -149,16 +149,14 @@ static alp_result cut(alpi_gltf_tidying *t, extents *kept, extents *cuts, alpi_b
 
 alp_result alpi_gltf_tidy_bytes(alpi_gltf_tidying *t, alpi_bytes *bin)
 {
-    if (t->counts[ALPI_GLTF_BUFFERS] > 0 && t->gone[ALPI_GLTF_BUFFERS][0]) {
-        return ALP_OK; // the whole buffer goes, and its text with it
+    if (t->counts[ALPI_GLTF_BUFFERS] == 0 || t->gone[ALPI_GLTF_BUFFERS][0]) {
+        return ALP_OK; // without bytes, or the whole buffer goes, and its text with it
     }
     const size_t views = t->counts[ALPI_GLTF_BUFFER_VIEWS];
     extents kept = {.items = ALPI_NEW(t->context, extent, 3 * views)};
     extents cuts = {.items = ALPI_NEW(t->context, extent, views)};
-    const alp_result result =
-        kept.items == NULL || cuts.items == NULL || t->counts[ALPI_GLTF_BUFFERS] == 0
-            ? ALP_ERROR_OUT_OF_MEMORY
-            : cut(t, &kept, &cuts, bin);
+    const alp_result result = kept.items == NULL || cuts.items == NULL ? ALP_ERROR_OUT_OF_MEMORY
+                                                                       : cut(t, &kept, &cuts, bin);
     alpi_release(t->context, kept.items);
     alpi_release(t->context, cuts.items);
     return result;

@@ -232,6 +232,28 @@ TEST_WITH_CONTEXT(conversions, 1)
     alp_scene_destroy(scene);
 }
 
+/// A scene of lights alone becomes a glTF without a buffer.
+TEST_WITH_CONTEXT(a_scene_without_triangles_is_converted, 1)
+{
+    alp_scene *scene = NULL;
+    ASSERT_OK(context,
+              test_collada_scene(context,
+                                 "<library_lights><light id='l'><technique_common><directional>"
+                                 "<color>1 1 1</color></directional></technique_common></light>"
+                                 "</library_lights><library_visual_scenes><visual_scene id='s'>"
+                                 "<node><instance_light url='#l'/></node></visual_scene>"
+                                 "</library_visual_scenes>" TEST_COLLADA_SCENE,
+                                 &scene));
+    assert_int_equal(scene->triangle_count, 0);
+    alp_scene *again = NULL;
+    const char *folder = test_folder();
+    alpi_release(context, write_and_read(scene, folder, "lights.glb", "lights.glb"));
+    ASSERT_OK(context, alp_scene_load(context, test_path(folder, "lights.glb"), &again));
+    assert_int_equal(again->light_count, 1);
+    alp_scene_destroy(again);
+    alp_scene_destroy(scene);
+}
+
 /// Writes a grey picture of one pixel.
 static void write_picture(alp_context *context, const char *folder, const char *name)
 {
