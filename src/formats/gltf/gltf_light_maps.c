@@ -40,9 +40,10 @@ static alp_result read_ktx2(const alpi_gltf_document *document, const uint8_t *b
                         "%s: its light is a KTX2 of another form than RGBA16F in one layer",
                         document->path);
     const size_t count = (size_t)4 * texture.width * texture.height;
-    for (size_t i = 0; result == ALP_OK && i < count; i++) {
+    float *values = result == ALP_OK ? alp_image_floats(*image) : NULL;
+    for (size_t i = 0; values != NULL && i < count; i++) {
         const uint8_t *bits = texture.texels + 2 * i;
-        alp_image_floats(*image)[i] = alpi_half_to_float((uint16_t)(bits[0] | bits[1] << 8));
+        values[i] = alpi_half_to_float((uint16_t)(bits[0] | bits[1] << 8));
     }
     alpi_release(context, texture.texels);
     return result;
