@@ -18,6 +18,8 @@ typedef struct alp_report_options {
     /// with its visible effect and its remedy. NULL (default): the messages alone.
     const alp_diagnosis *diagnosis;
     bool overwrite; ///< default false: an existing file is an error
+    /// Samples of each pixel in the picture of the scene; 0: no such picture. Default 8.
+    uint32_t picture_samples;
 } alp_report_options;
 ALP_API alp_report_options alp_report_options_default(void);
 

@@ -15,7 +15,7 @@ enum { FINDING_LIMIT = 200, TEXT_LIMIT = 2000, WORD_LIMIT = 2000 };
 
 alp_report_options alp_report_options_default(void)
 {
-    return (alp_report_options){.struct_size = sizeof(alp_report_options)};
+    return (alp_report_options){.struct_size = sizeof(alp_report_options), .picture_samples = 8};
 }
 
 /// What the page is made of.
@@ -268,7 +268,7 @@ static alp_result put_all(alpi_page *page, const report_job *job)
 {
     put_head(page, job);
     put_tiles(page, job);
-    alpi_report_put_scene(page, job->scene, job->lightmap);
+    alpi_report_put_scene(page, job->scene, job->lightmap, job->options.picture_samples);
     put_findings(page, job);
     if (!job->at_vertices) {
         alpi_report_put_maps(page, job->report, &job->pictures);

@@ -47,7 +47,9 @@ void alpi_surface_tint(uint32_t surface, uint8_t rgb[3]);
 /// The sheet of styles, without its tags.
 void alpi_report_put_style(alpi_page *page);
 /// A picture of the scene with its maps, from its first camera or an automatic one.
-void alpi_report_put_scene(alpi_page *page, const alp_scene *scene, const alp_lightmap *lightmap);
+/// @param samples of a pixel; 0: none
+void alpi_report_put_scene(alpi_page *page, const alp_scene *scene, const alp_lightmap *lightmap,
+                           uint32_t samples);
 /// Name and value for every figure there is, as a list.
 void alpi_report_put_facts(alpi_page *page, const alp_scene *scene, const alp_bake_report *report);
 /// The maps and the heat maps of their errors.

@@ -492,7 +492,8 @@ TEST(existing_files_and_bad_places_are_refused)
     end(&b);
 }
 
-TEST(every_allocation_may_fail)
+/// @param step of the allocation that fails: 1, each
+static void fail_allocations(uint32_t picture_samples, int step)
 {
     int left = 0;
     alp_context *context = test_context_failing(&left);
@@ -502,11 +503,12 @@ TEST(every_allocation_may_fail)
     const char *folder = test_folder(), *path = test_path(folder, "page.html");
     alp_report_options page = alp_report_options_default();
     page.command = "alpenglow bake";
+    page.picture_samples = picture_samples;
     const int enough = left;
     int needed = 0;
     alp_result result = ALP_ERROR_OUT_OF_MEMORY;
-    while (result != ALP_OK && needed < 500) {
-        left = needed++;
+    for (; result != ALP_OK && needed < 500; needed += step) {
+        left = needed;
         result = alp_bake_write_report(scene, b.lightmap, &b.report, &page, path);
         assert_true(result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY);
         assert_int_equal(files_in(folder), result == ALP_OK);
@@ -514,4 +516,10 @@ TEST(every_allocation_may_fail)
     assert_true(result == ALP_OK && needed > 10);
     left = enough;
     end(&b);
+}
+
+TEST(every_allocation_may_fail)
+{
+    fail_allocations(0, 1);
+    fail_allocations(1, 13); // each that fails after the picture draws it first
 }
