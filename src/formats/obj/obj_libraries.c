@@ -101,7 +101,7 @@ static alp_result try_library(alpi_mtl_reader *r, alpi_obj_word name, bool only_
     ALP_TRY(find_library(r, name, &inner, found));
     const bool outside = inner == NULL;
     alp_result result = ALP_OK;
-    if (*found) {
+    if (*found && !outside) {
         uint32_t number;
         bool added = false;
         result = alpi_obj_names_add(&r->read, inner, strlen(inner), &number, &added);

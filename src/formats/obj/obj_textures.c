@@ -195,7 +195,8 @@ static alp_result look(alp_context *context, const char *folder, const char *fro
     texture->offset[0] = r->options.offset[0];
     texture->scale[1] = r->options.scale[1];
     texture->offset[1] = 1.0f - r->options.offset[1] - r->options.scale[1];
-    if (memchr(r->name.text, '\0', r->name.size) != NULL) {
+    if (r->name.size == 0 || r->name.text == NULL ||
+        memchr(r->name.text, '\0', r->name.size) != NULL) {
         return ALP_OK;
     }
     char *name = alpi_format(context, "%.*s", (int)r->name.size, r->name.text);

@@ -45,9 +45,9 @@ static bool holds_normals(const alp_image *image)
     const alpi_sampler sampler = {ALPI_WRAP_REPEAT, ALPI_WRAP_REPEAT, false};
     int unit = 0, grey = 0;
     for (int i = 0; i < SIDE * SIDE; i++) {
+        const int x = i % SIDE, y = i / SIDE;
         float c[4];
-        alpi_image_sample(image, ((float)(i % SIDE) + 0.5f) / SIDE,
-                          ((float)(i / SIDE) + 0.5f) / SIDE, sampler, c);
+        alpi_image_sample(image, ((float)x + 0.5f) / SIDE, ((float)y + 0.5f) / SIDE, sampler, c);
         const vec3 n = {2.0f * c[0] - 1.0f, 2.0f * c[1] - 1.0f, 2.0f * c[2] - 1.0f};
         unit += n.z > 0.0f && fabsf(vec3_length(n) - 1.0f) < 0.2f;
         grey += fabsf(c[0] - c[2]) < 0.02f && fabsf(c[1] - c[2]) < 0.02f;
