@@ -47,8 +47,8 @@ static char *copy_text(const char *text)
     return memcpy(allocate_or_exit(NULL, size), text, size);
 }
 
-/// How a new warning is printed: at once, or with an earlier one of its text. Of a code the first
-/// CODE_LIMIT are printed.
+/// Chooses how a new warning is printed: at once, or with an earlier one of its text. The first
+/// CODE_LIMIT warnings of each code are printed.
 static int find_like(const message_log *m, const alp_log_message *logged)
 {
     enum { CODE_LIMIT = 8 };

@@ -131,11 +131,11 @@ char *alpi_collada_copy_name(alp_context *context, const xmlNode *node, const ch
 
 /// The element with that id, NULL when there is none (or no id).
 xmlNode *alpi_collada_find(const alpi_collada_document *document, const char *id);
-/// What is bound to a name at an instance, an <instance_material>, or at that, a
-/// <bind_vertex_input>; the first where there are several, NULL where there is none.
+/// The first <instance_material> with a name at an instance, or <bind_vertex_input> with a name at
+/// an <instance_material>; NULL if there is none.
 xmlNode *alpi_collada_bound_to(const alpi_collada_document *document, const xmlNode *owner,
                                const char *name);
-/// What an attribute such as url="#id" refers to, whatever it is; NULL where that is not there.
+/// The element that an attribute such as url="#id" refers to, of any kind; NULL if it is missing.
 xmlNode *alpi_collada_target(const alpi_collada_document *document, const xmlNode *node,
                              const char *attribute);
 /// The same, of one kind. INVALID_DATA where the attribute is missing or

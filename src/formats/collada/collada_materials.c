@@ -117,8 +117,8 @@ static bool bound_number(const xmlNode *bind, double *number)
     return set != NULL && alpi_text_number(&set, number);
 }
 
-/// Of a texture bound to a set that is not there, as an exporter writes that counts from 1: the
-/// only set besides that of our own map. ALPI_NONE with none or several.
+/// The only set besides that of our own map, for a texture that names a missing set. Exporters that
+/// count from 1 name such sets. ALPI_NONE with none or several.
 static uint32_t only_set(const alpi_collada_reader *reader, const xmlNode *binding,
                          const alpi_collada_part *part)
 {

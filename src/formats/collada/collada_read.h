@@ -218,7 +218,7 @@ typedef struct alpi_collada_reader {
     uint32_t bad_parts, bad_fixtures; // that cannot be read
 } alpi_collada_reader;
 
-/// What a reference leads to; NULL in *target where it leads nowhere, which is told later.
+/// Resolves a reference. A broken one gives NULL in *target, and one warning at the end of reading.
 alp_result alpi_collada_refer(alpi_collada_reader *reader, const xmlNode *node,
                               const char *attribute, const char *name, xmlNode **target);
 /// Tells what was met while the file was read: a warning or note for each kind.
@@ -282,7 +282,7 @@ typedef struct alpi_collada_surface {
     xmlNode *primitive, *geometry, *instance;
     uint32_t placement;
 } alpi_collada_surface;
-/// What is read from the document but has no place in another format.
+/// Counts of contents that are read but have no place in another format.
 typedef struct alpi_collada_losses {
     uint32_t heights, gloss_maps, mirrors, animations;
 } alpi_collada_losses;

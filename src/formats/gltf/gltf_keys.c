@@ -9,7 +9,7 @@ static double time_of(const alpi_gltf_keys *keys, uint32_t key)
     return (double)alpi_gltf_values_float(&keys->times, key, 0);
 }
 
-/// Of the three numbers that a cubic has.
+/// The three numbers of a key of a cubic, in their order.
 enum { IN_TANGENT, VALUE, OUT_TANGENT, CUBIC_PARTS };
 
 /// Number k of a part of a key. Weights are scalars in a row, other values vectors.

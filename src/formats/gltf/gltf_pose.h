@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves vertices before their node places them: skins and morph targets.
+// Skins and morph targets, which move vertices before the transform of their node.
 #ifndef ALPI_FORMATS_GLTF_POSE_H
 #define ALPI_FORMATS_GLTF_POSE_H
 

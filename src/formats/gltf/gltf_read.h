@@ -21,7 +21,7 @@ typedef struct alpi_gltf_reader {
     bool *material_used; // [scene.material_count]
     uint64_t posing;     // work of skins and morph targets so far
     uint64_t keys;       // numbers of animations so far
-    // Of a pose: the scene whose file it is, and where the nodes stand. Else NULL.
+    // For a pose: the scene that it moves, and the transforms of the nodes. Else NULL.
     const alp_scene *base;
     struct alpi_gltf_moment *moments; // [moment_count] of all nodes
     size_t moment_count;
