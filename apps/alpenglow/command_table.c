@@ -79,6 +79,16 @@ static const command_entry commands[COMMAND_COUNT] = {
          "flight (--frames, --path, --pictures). A picture has the camera, the exposure and the "
          "tone curve of render. This is a program of its own, alpenglow-view, which needs EGL; "
          "without a graphics card, Mesa draws on the processor."},
+    [COMMAND_STATUS] = {"status", "DIR [--json [FILE]]", "print the progress of a checkpointed bake",
+                        1,
+                        "Prints the state that the processes of a bake keep in the DIR of "
+                        "--checkpoint: what is done, the stated error so far, the time left at the "
+                        "last write, and shards that are missing."},
+    [COMMAND_MERGE] = {"merge", "DIR [-o OUT]", "write the result of a bake's shards", 1,
+                       "Reads the shards that 'bake --shard I/N --checkpoint DIR' left in DIR, and "
+                       "writes what one bake would have written, with the same bits. OUT is its "
+                       "asset, or its folder of maps; without OUT, the names of the bake. Missing "
+                       "shards are listed for sbatch --array."},
 };
 
 static const char *const builtin_scenes[] = {
@@ -101,7 +111,7 @@ bool command_interruptible(command_id command)
 {
     return command == COMMAND_BAKE || command == COMMAND_RENDER || command == COMMAND_SAMPLE ||
            command == COMMAND_PROBES || command == COMMAND_AMBIENCE || command == COMMAND_LPV ||
-           command == COMMAND_VIEW;
+           command == COMMAND_VIEW || command == COMMAND_MERGE;
 }
 
 bool command_is_picture(command_id command)

@@ -12,12 +12,12 @@
 // A handler has no argument of ours; lock-free atomics may be used in one.
 static atomic_int asked;
 static atomic_int deferred;
+static atomic_int keeps_work;
 
 static void handle(int signal_number)
 {
-    (void)signal_number;
     static const char text[] = "\nalpenglow: interrupted at once\n";
-    if (!atomic_load(&deferred) || atomic_exchange(&asked, 1)) {
+    if (!atomic_load(&deferred) || atomic_exchange(&asked, signal_number)) {
         ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
         (void)written;
         _exit(EXIT_INTERRUPTED);
@@ -43,6 +43,18 @@ void interrupt_install(void)
 void interrupt_defer(void)
 {
     atomic_store(&deferred, 1);
+}
+
+void interrupt_keep_work(void)
+{
+    atomic_store(&keeps_work, 1);
+    install(SIGUSR1);
+}
+
+bool interrupt_stops(void)
+{
+    const int signal_number = atomic_load(&asked);
+    return atomic_load(&keeps_work) && (signal_number == SIGTERM || signal_number == SIGUSR1);
 }
 
 bool interrupt_asked(void)

@@ -22,6 +22,8 @@ static int (*const runs[COMMAND_COUNT])(const command_line *arguments) = {
     [COMMAND_SH] = command_sh,
     [COMMAND_BENCH] = command_bench,
     [COMMAND_VIEW] = command_view,
+    [COMMAND_STATUS] = command_status,
+    [COMMAND_MERGE] = command_merge,
 };
 
 /// Proposes commands for a scene that stands alone.

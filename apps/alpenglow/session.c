@@ -83,6 +83,10 @@ int session_end(session *s, alp_result result)
         return EXIT_DONE;
     }
     if (result == ALP_ERROR_CANCELLED) {
+        if (interrupt_stops()) {
+            failure("stopped; the checkpoint keeps the work, and the same command goes on from it");
+            return EXIT_STOPPED;
+        }
         if (interrupt_asked()) {
             failure(s->has_written ? "interrupted" : "interrupted; nothing was written");
             return EXIT_INTERRUPTED;

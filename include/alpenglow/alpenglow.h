@@ -6,6 +6,7 @@
 #include <alpenglow/ambience.h>
 #include <alpenglow/atlas.h>
 #include <alpenglow/bake.h>
+#include <alpenglow/checkpoint.h>
 #include <alpenglow/compare.h>
 #include <alpenglow/context.h>
 #include <alpenglow/display.h>
@@ -19,6 +20,7 @@
 #include <alpenglow/lpv.h>
 #include <alpenglow/occlusion.h>
 #include <alpenglow/probes.h>
+#include <alpenglow/ranks.h>
 #include <alpenglow/render.h>
 #include <alpenglow/report.h>
 #include <alpenglow/result.h>

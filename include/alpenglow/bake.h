@@ -4,6 +4,7 @@
 #define ALPENGLOW_BAKE_H
 
 #include <alpenglow/atlas.h>
+#include <alpenglow/checkpoint.h>
 #include <alpenglow/image.h>
 #include <alpenglow/light.h>
 #include <alpenglow/lightmap.h>
@@ -286,6 +287,7 @@ typedef struct alp_bake_options {
     /// PROBES: NULL (default) = alp_probe_options_default(). Its lighting, bounces, one_sided, seed
     /// and progress are those of the bake; it has no layers.
     const alp_probe_options *probes;
+    alp_checkpoint_options checkpoint;
     alp_maps_format maps_format; ///< of maps_folder; else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
     /// "texels"; "build"; "occlusion"; "obscurance"; "light"; "probes"; "denoise"; "dilation";
@@ -372,6 +374,9 @@ typedef struct alp_bake_report {
     /// PATHS: paths of a texel. light_direct: samples of each light.
     uint32_t light_samples;
     unsigned maps;           ///< maps that were made: bits of alp_map
+    bool resumed;    ///< tiles of a checkpoint were read
+    bool shard_done; ///< the tiles of a shard are in its folder; no output was written
+    uint64_t tiles_run, tiles_read; ///< tiles of loops; 0 without ranks and checkpoint
     uint32_t surfaces_baked; ///< number of scene.surfaces that got a map, see `only`
     uint32_t threads;
     uint64_t seed;

@@ -4,6 +4,7 @@
 #ifndef ALPENGLOW_CONTEXT_H
 #define ALPENGLOW_CONTEXT_H
 
+#include <alpenglow/ranks.h>
 #include <alpenglow/result.h>
 
 #include <stdbool.h>
@@ -68,6 +69,9 @@ typedef struct alp_context_options {
                          void *body_user);
     void *parallel_user;
 
+    /// Processes that share the loops that trace rays; copied. NULL (default): this one alone.
+    const alp_ranks *ranks;
+
     alp_log_fn *log; ///< receives warnings and notes; NULL (default): none are given
     void *log_user;
 
@@ -88,7 +92,7 @@ ALP_API alp_context_options alp_context_options_default(void);
 /// @param options NULL = defaults; copied
 /// @param context out; NULL on failure
 /// @return ALP_OK; INVALID_ARGUMENT (options not from the default, half an allocator, a host
-///         scheduler without worker_count, an unknown max_isa); OUT_OF_MEMORY
+///         scheduler without worker_count, an unknown max_isa, bad ranks); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_context_create(const alp_context_options *options,
                                                     alp_context **context);
 

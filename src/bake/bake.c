@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The whole bake: run() names its stages in their order.
+#include "bake/bake_checkpoint.h"
 #include "bake/bake_memory.h"
 #include "bake/bake_stages.h"
 #include "bake/check.h"
@@ -12,7 +13,7 @@
 #include "bake/settings.h"
 
 #include "base/memory.h"
-#include "base/tasks.h"
+#include "base/tiles/tiles.h"
 #include "scene/sides.h"
 
 #include <unistd.h>
@@ -27,6 +28,7 @@ alp_bake_options alp_bake_options_default(void)
                                         .samples = 256,
                                         .hemicube = 64},
                               .maps = ALP_MAP_AO,
+                              .checkpoint = alp_checkpoint_options_default(),
                               .sampling = {.accuracy = ALP_ADAPTIVE_AUTO},
                               .stitch = true};
 }
@@ -53,6 +55,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(alpi_bake_check(job));
     ALP_TRY(alpi_bake_check_lit(job));
     ALP_TRY(choose_sides(job));
+    ALP_TRY(alpi_bake_open_checkpoint(job));
     ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
         return alpi_bake_vertices(job);
@@ -62,6 +65,11 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(alpi_bake_occlusion(job));
     ALP_TRY(alpi_bake_obscurance(job));
     ALP_TRY(alpi_bake_light(job));
+    bool ends = false;
+    ALP_TRY(alpi_bake_end_shard(job, &ends));
+    if (ends) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_bake_store(job));
     ALP_TRY(alpi_bake_stitch(job));
     return alpi_bake_write(job);
@@ -84,6 +92,10 @@ static void finish_report(alpi_bake_job *job, double started)
     alp_bake_report *r = &job->report;
     r->scene = alp_scene_get_info(job->scene);
     r->maps = job->options.maps;
+    const alpi_tiles *tiles = alpi_context_tiles(job->context);
+    r->tiles_run = tiles->ran;
+    r->tiles_read = tiles->read;
+    r->resumed = tiles->read > 0 && !tiles->merging && alpi_context_ranks(job->context) == NULL;
     r->threads = alp_context_worker_count(job->context);
     r->seed = job->options.occlusion.seed;
     r->input_hash = job->scene->input_hash;
@@ -113,6 +125,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     const double started = alpi_seconds();
     const alp_result result = alpi_bake_end_budget(&job, run(&job));
     finish_report(&job, started);
+    alpi_bake_close_checkpoint(&job, result == ALP_OK);
     alpi_set_watch(job.context, former);
     release(&job);
     if (result != ALP_OK && folder_is_new) {

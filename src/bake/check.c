@@ -4,6 +4,7 @@
 #include "bake/check.h"
 
 #include "atlas/choice.h"
+#include "bake/bake_checkpoint.h"
 #include "bake/settings.h"
 #include "base/file.h"
 #include "scene/lights/lighting_options.h"
@@ -235,6 +236,7 @@ alp_result alpi_bake_check(const alpi_bake_job *job)
     }
     ALP_TRY(check_choices(job));
     ALP_TRY(check_sampling(job));
+    ALP_TRY(alpi_bake_check_checkpoint(job));
     ALP_TRY(check_vertices(job));
     ALP_TRY(check_maps(job));
     ALP_TRY(alpi_bake_check_light(job));

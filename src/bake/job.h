@@ -4,6 +4,7 @@
 #define ALPI_BAKE_JOB_H
 
 #include "base/memory.h"
+#include "base/tasks.h"
 #include "maps/lightmap.h"
 #include "maps/radiosity/layer_arrays.h"
 #include "maps/texels/lattice.h"
@@ -92,6 +93,7 @@ typedef struct alpi_bake_job {
     alpi_layer_plan layers;
     // Atlas fills these.
     alp_lightmap *lightmap;
+    alpi_watch told;       // progress of the caller, while a checkpoint notes it
     const char *stage;     // that allocates now
     uint64_t memory_limit; // bytes that the bake may hold beside those held before it; 0: any
     alpi_budget budget;    // of the context, before the bake

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "base/tiles/tiles.h"
 
 #include <alpenglow/version.h>
 #include <assert.h>
@@ -32,6 +33,8 @@ struct alp_context {
     struct alpi_pool *pool;
     alpi_watch watch;
     struct alpi_loop *loop;
+    alpi_tiles tiles;
+    alp_ranks ranks;
     pthread_mutex_t message_lock; // workers may fail too
     char message[MESSAGE_SIZE];
     uint32_t hushed;    // how often
@@ -83,6 +86,13 @@ static uint32_t online_cores(void)
     return cores < 1 ? 1 : cores > WORKER_LIMIT ? WORKER_LIMIT : (uint32_t)cores;
 }
 
+static bool ranks_are_valid(const alp_ranks *r)
+{
+    return r == NULL ||
+           (r->struct_size == sizeof *r && r->count > 0 && r->rank < r->count &&
+            (r->count == 1 || (r->claim != NULL && r->exchange != NULL)));
+}
+
 static bool options_are_valid(const alp_context_options *o)
 {
     static const char *const levels[] = {"sse2", "sse4.2", "avx", "avx2"};
@@ -92,7 +102,7 @@ static bool options_are_valid(const alp_context_options *o)
     }
     return o->struct_size == sizeof *o && (o->allocate == NULL) == (o->release == NULL) &&
            o->worker_count <= WORKER_LIMIT && (o->parallel_for == NULL || o->worker_count > 0) &&
-           isa_known;
+           isa_known && ranks_are_valid(o->ranks);
 }
 
 alp_result alp_context_create(const alp_context_options *options, alp_context **context)
@@ -119,6 +129,8 @@ alp_result alp_context_create(const alp_context_options *options, alp_context **
         snprintf(c->max_isa, sizeof c->max_isa, "%s", o.max_isa);
         c->options.max_isa = c->max_isa;
     }
+    c->ranks = o.ranks != NULL ? *o.ranks : alp_ranks_default();
+    c->options.ranks = NULL; // copied
     c->worker_count = o.worker_count > 0 ? o.worker_count : online_cores();
     pthread_mutex_init(&c->message_lock, NULL);
     *context = c;
@@ -133,6 +145,16 @@ void alp_context_destroy(alp_context *context)
     alpi_pool_destroy(context->pool);
     pthread_mutex_destroy(&context->message_lock);
     context->options.release(context->options.allocator_user, context);
+}
+
+alpi_tiles *alpi_context_tiles(alp_context *context)
+{
+    return &context->tiles;
+}
+
+const alp_ranks *alpi_context_ranks(const alp_context *context)
+{
+    return context->ranks.count > 1 ? &context->ranks : NULL;
 }
 
 const char *alp_context_message(const alp_context *context)
@@ -257,6 +279,21 @@ bool alpi_context_has_v3(const alp_context *context)
 #else
     (void)isa;
     return false;
+#endif
+}
+
+const char *alpi_context_isa(const alp_context *context)
+{
+    if (context->options.max_isa != NULL) {
+        return context->options.max_isa;
+    }
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512f") ? "avx512"
+           : __builtin_cpu_supports("avx2")  ? "avx2"
+           : __builtin_cpu_supports("avx")   ? "avx"
+                                             : "sse4.2";
+#else
+    return "other";
 #endif
 }
 

@@ -44,8 +44,16 @@ struct alpi_watch *alpi_context_watch(alp_context *context);
 struct alpi_loop;
 /// Where the context keeps the parallel loop that runs: see tasks.h.
 struct alpi_loop **alpi_context_loop(alp_context *context);
+struct alpi_tiles;
+/// The tiles of the context: see tiles/tiles.h.
+struct alpi_tiles *alpi_context_tiles(alp_context *context);
+struct alp_ranks;
+/// The processes that share loops; NULL: this one alone.
+const struct alp_ranks *alpi_context_ranks(const alp_context *context);
 /// Whether code for x86-64-v3 (AVX2) may run: this machine has it, and max_isa allows it.
 bool alpi_context_has_v3(const alp_context *context);
+/// The highest instruction set that may run, whose level decides the bits of results.
+const char *alpi_context_isa(const alp_context *context);
 /// Chooses name_v3 if it may run, else name_baseline: functions, or tables of functions, that
 /// alp_compile_twice of CMakeLists.txt compiles.
 #ifdef ALPI_HAS_V3

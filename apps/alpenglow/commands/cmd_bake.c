@@ -10,6 +10,7 @@
 #include "output.h"
 #include "report.h"
 #include "report_page.h"
+#include "scale/checkpoints.h"
 #include "session.h"
 #include "work.h"
 
@@ -48,6 +49,19 @@ static int report(session *s, const alp_lightmap *lightmap, const alp_bake_repor
     return code;
 }
 
+/// Reports a shard, which writes no outputs.
+static int end_shard(const session *s, const command_line *a, const alp_bake_options *o,
+                     const alp_bake_report *r)
+{
+    if (!a->values[OPTION_QUIET].given) {
+        printf("shard      %u of %u is in %s, after %.1f s; 'alpenglow merge %s' writes the "
+               "result\n",
+               o->checkpoint.shard, o->checkpoint.shards, o->checkpoint.folder, r->seconds_total,
+               o->checkpoint.folder);
+    }
+    return session_judge_warnings(s);
+}
+
 /// @param note of a choice that was made, or NULL
 static int bake(session *s, const command_line *a, alp_bake_options *o, const char *note)
 {
@@ -60,6 +74,9 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
     o->progress = session_progress;
     o->progress_user = s;
     interrupt_defer();
+    if (o->checkpoint.folder != NULL && !o->checkpoint.merge) {
+        interrupt_keep_work();
+    }
     alp_bake_work work;
     if (!a->values[OPTION_QUIET].given && o->atlas.mode != ALP_ATLAS_VERTEX &&
         alp_bake_estimate(s->scene, o, &work) == ALP_OK && work.texels > 0) {
@@ -75,6 +92,10 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
     o->probes = &probes;
     code = session_end(s, alp_bake(s->scene, o, &lightmap, &told));
     o->probes = NULL;
+    if (code == EXIT_DONE && told.shard_done) {
+        alp_lightmap_destroy(lightmap);
+        return end_shard(s, a, o, &told);
+    }
     if (code == EXIT_DONE) {
         code = report(s, lightmap, &told, a);
     }
@@ -125,7 +146,9 @@ static int run(const command_line *a, const char *note)
 {
     alp_bake_options options;
     lamp_list lamps;
+    char *restart = NULL;
     int code = bake_options_read(a, &options, &lamps);
+    code = code == EXIT_DONE ? checkpoint_read(a, &options, &restart) : code;
     code = code == EXIT_DONE ? probe_file_check(a) : code;
     code = code == EXIT_DONE ? check_own_input(a, options.output) : code;
     if (code == EXIT_DONE) {
@@ -135,6 +158,7 @@ static int run(const command_line *a, const char *note)
         code = report_page_check(a);
     }
     if (code != EXIT_DONE) {
+        free(restart);
         return code;
     }
     session s;
@@ -145,6 +169,7 @@ static int run(const command_line *a, const char *note)
     }
     alp_image_destroy(sky);
     session_close(&s);
+    free(restart);
     return code;
 }
 

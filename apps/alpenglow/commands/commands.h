@@ -15,6 +15,8 @@ int command_ambience(const command_line *arguments);
 int command_lpv(const command_line *arguments);
 int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
+int command_status(const command_line *arguments);
+int command_merge(const command_line *arguments);
 int command_view(const command_line *arguments);
 
 #endif

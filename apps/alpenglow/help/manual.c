@@ -239,12 +239,15 @@ static void put_status(int status, const char *text)
     put_prose(text);
 }
 
-static void put_exit_statuses(const manual_text *text, bool interruptible)
+static void put_exit_statuses(const manual_text *text, bool keeps_work, bool interruptible)
 {
     put_section("EXIT STATUS");
     put_status(EXIT_DONE, "Done.");
     put_status(EXIT_FAILED, text->failed ? text->failed : "Failed. A message gives the reason.");
     put_status(EXIT_USAGE, "Wrong usage. Nothing was started.");
+    if (keeps_work) {
+        put_status(EXIT_STOPPED, "Stopped by SIGTERM or SIGUSR1; the checkpoint keeps the work.");
+    }
     if (interruptible) {
         put_status(EXIT_INTERRUPTED, "Interrupted, for example by Ctrl-C.");
     }
@@ -319,7 +322,7 @@ int manual_print_command(command_id command)
         put_group(command, group);
     }
     put_later(command);
-    put_exit_statuses(text, command_interruptible(command));
+    put_exit_statuses(text, command == COMMAND_BAKE, command_interruptible(command));
     put_files(text);
     put_environment(text);
     put_examples(text);
@@ -361,7 +364,7 @@ int manual_print(void)
     for (size_t i = 0; i < count; i++) {
         put_option(&table[i]);
     }
-    put_exit_statuses(text, true);
+    put_exit_statuses(text, true, true);
     put_files(text);
     put_environment(text);
     put_examples(text);

@@ -33,5 +33,6 @@ extern const option_part option_part_run;
 extern const option_part option_part_view;
 extern const option_part option_part_view_more;
 extern const option_part option_part_later;
+extern const option_part option_part_scale;
 
 #endif

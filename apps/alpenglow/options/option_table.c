@@ -7,7 +7,7 @@ static const option_part *const parts[] = {
     &option_part_output,    &option_part_what, &option_part_space,   &option_part_ambience,
     &option_part_lpv,       &option_part_stop, &option_part_picture, &option_part_light,
     &option_part_ao,        &option_part_run,  &option_part_view,    &option_part_later,
-    &option_part_view_more,
+    &option_part_view_more, &option_part_scale,
 };
 
 /// Options of alpenglow itself, without a command.
@@ -35,6 +35,7 @@ static const char *const group_titles[GROUP_COUNT] = {
     [GROUP_AO] = "Ambient occlusion",
     [GROUP_LIGHT] = "Light",
     [GROUP_STOP] = "Quality and limits",
+    [GROUP_SCALE] = "Checkpoints and shards",
     [GROUP_RUN] = "Run",
     [GROUP_LATER] = "Not built yet (refused by name)",
 };

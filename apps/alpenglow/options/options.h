@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /// Exit codes of the contract.
-enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_INTERRUPTED = 130 };
+enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, EXIT_STOPPED = 75, EXIT_INTERRUPTED = 130 };
 
 typedef enum command_id {
     COMMAND_BAKE,
@@ -22,6 +22,8 @@ typedef enum command_id {
     COMMAND_SH,
     COMMAND_BENCH,
     COMMAND_VIEW,
+    COMMAND_STATUS,
+    COMMAND_MERGE,
     COMMAND_COUNT
 } command_id;
 
@@ -37,6 +39,8 @@ enum {
     IN_SH = 1 << COMMAND_SH,
     IN_BENCH = 1 << COMMAND_BENCH,
     IN_VIEW = 1 << COMMAND_VIEW,
+    IN_STATUS = 1 << COMMAND_STATUS,
+    IN_MERGE = 1 << COMMAND_MERGE,
 };
 
 /// Every option that can be given; OPTION_LATER stands for all that are not built yet.
@@ -163,6 +167,9 @@ typedef enum option_id {
     OPTION_BENCH_SCENE,
     OPTION_QUICK,
     OPTION_MARKDOWN,
+    OPTION_CHECKPOINT,
+    OPTION_CHECKPOINT_EVERY,
+    OPTION_SHARD,
     OPTION_SEED,
     OPTION_THREADS,
     OPTION_PROGRESS,
@@ -186,6 +193,7 @@ typedef enum option_group {
     GROUP_AO,
     GROUP_LIGHT,
     GROUP_STOP,
+    GROUP_SCALE,
     GROUP_RUN,
     GROUP_LATER,
     GROUP_COUNT
@@ -252,6 +260,9 @@ typedef struct command_line {
         const char *text;
     } repeated[REPEAT_LIMIT]; // [repeated_count], as they were given; `values` has the last of each
     int repeated_count;
+    bool merging;              // a merge runs this bake: it reads shards
+    uint32_t merged_shards;    // how many
+    const char *merged_folder; // where they are
 } command_line;
 
 typedef struct command_entry {

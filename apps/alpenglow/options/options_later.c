@@ -9,9 +9,7 @@
     }
 
 static const option rows[] = {
-    LATER(IN_BAKE, "--checkpoint", "DIR", "a bake runs in one go"),
     LATER(IN_PROBES, "--split", "rooms", "the look-up's visibility keeps light in its room"),
-    LATER(IN_BAKE, "--resume", NULL, "a bake runs in one go"),
 };
 
 const option_part option_part_later = {rows, sizeof rows / sizeof *rows};

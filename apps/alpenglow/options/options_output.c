@@ -35,6 +35,15 @@ static const option rows[] = {
      .help = "The probes, required. OUT.probes.ktx2 beside it holds the light, and "
              "OUT.probes.moments.ktx2 the distances."},
     {.id = OPTION_OUTPUT,
+     .commands = IN_MERGE,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "OUT",
+     .help = "Write the asset (.glb, .gltf, .dae, .obj) or the folder of maps (another name) here, "
+             "instead of where the bake would."},
+    {.id = OPTION_OUTPUT,
      .commands = IN_SH,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
@@ -130,7 +139,7 @@ static const option rows[] = {
      .value = "FILE",
      .help = "Write the figures as JSON. - prints it instead of the table."},
     {.id = OPTION_JSON,
-     .commands = IN_INFO,
+     .commands = IN_INFO | IN_STATUS,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "--json",
@@ -160,7 +169,8 @@ static const option rows[] = {
              "percentile and above, magenta is covered in one image only."},
     {.id = OPTION_FORCE,
      .commands =
-         RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW,
+         RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW |
+         IN_STATUS | IN_MERGE,
      .common = IN_BAKE,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,

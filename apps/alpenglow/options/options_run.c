@@ -38,7 +38,7 @@ static const option rows[] = {
      .help = "Seed of the noise. The same seed gives the same bits for any number of "
              "threads."},
     {.id = OPTION_THREADS,
-     .commands = LIGHT_COMMANDS,
+     .commands = LIGHT_COMMANDS | IN_MERGE,
      .group = GROUP_RUN,
      .kind = KIND_WHOLE,
      .name = "--threads",
@@ -69,7 +69,7 @@ static const option rows[] = {
      .name = "--warnings-as-errors",
      .help = "Stop at the first warning and exit with 1."},
     {.id = OPTION_QUIET,
-     .commands = SCENE_COMMANDS | IN_COMPARE,
+     .commands = SCENE_COMMANDS | IN_COMPARE | IN_MERGE,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-q",
@@ -78,7 +78,7 @@ static const option rows[] = {
              "results of info and compare."},
 
     {.id = OPTION_HELP,
-     .commands = SCENE_COMMANDS | IN_COMPARE | IN_SH | IN_BENCH,
+     .commands = SCENE_COMMANDS | IN_COMPARE | IN_SH | IN_BENCH | IN_STATUS | IN_MERGE,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-h",

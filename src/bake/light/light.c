@@ -18,7 +18,7 @@
 #include "bake/light/light_store.h"
 #include "bake/settings.h"
 #include "base/memory.h"
-#include "base/tasks.h"
+#include "base/tiles/tiles.h"
 #include "fields/probes/probes.h"
 #include "transport/examine.h"
 #include "transport/paths/reference.h"
@@ -51,12 +51,13 @@ static alp_result trace_paths(alpi_light_bake *light)
     return ALP_OK;
 }
 
-/// Samples the probes of the bake, if it wants any.
+/// Samples the probes of the bake, if it wants any. Shards leave them to the merge.
 /// @param known NULL: their light is solved apart
 static alp_result bake_probes(alpi_bake_job *job, const alpi_surface_light *known)
 {
     const alp_bake_options *o = &job->options;
-    if ((o->maps & ALP_MAP_PROBES) == 0) {
+    const alpi_tiles *tiles = alpi_context_tiles(job->context);
+    if ((o->maps & ALP_MAP_PROBES) == 0 || (tiles->shards > 0 && !tiles->merging)) {
         return ALP_OK;
     }
     alp_probe_options options = o->probes != NULL ? *o->probes : alp_probe_options_default();
@@ -75,6 +76,8 @@ static alp_result bake_probes(alpi_bake_job *job, const alpi_surface_light *know
 /// Gathers in rounds, filters noise, and joins both kinds of light.
 static alp_result gather(alpi_light_bake *light, alpi_light_rounds *rounds)
 {
+    const alpi_light_settings *s = &light->settings;
+    (void)alpi_tiles_split(light->job->context, !s->in_rounds && !s->adaptive);
     ALP_TRY(alpi_light_run_rounds(rounds));
     alpi_light_rounds_trim(rounds);
     if (light->job->options.light.denoise) {
@@ -94,6 +97,7 @@ static alp_result run_radiosity(alpi_light_bake *light, alpi_light_gatherers *ga
                                 .fixed = gatherers->texel_cube != NULL ? &gatherers->texels : NULL};
     const alp_result result = gather(light, &rounds);
     alpi_light_rounds_clear(&rounds);
+    (void)alpi_tiles_split(light->job->context, false);
     ALP_TRY(result);
     const alpi_surface_light known = alpi_patches_light(&solution->radiosity->patches);
     return bake_probes(light->job, &known);
@@ -119,9 +123,11 @@ static alp_result run(alpi_light_bake *light)
     const alp_light_options *o = &job->options.light;
     const bool direct = o->bounces == 0, paths = o->gather == ALP_GATHER_PATHS;
     job->report.light_direct = direct;
+    (void)alpi_tiles_split(job->context, direct || paths);
     ALP_TRY(direct  ? alpi_light_sample_all(light)
             : paths ? trace_paths(light)
                     : alpi_light_radiosity(light));
+    (void)alpi_tiles_split(job->context, false);
     if (direct || paths) {
         ALP_TRY(bake_probes(job, NULL));
     }

@@ -4,6 +4,7 @@
 
 #include "bake/gathering.h"
 #include "base/memory.h"
+#include "base/tiles/tiles.h"
 #include "transport/occlusion/obscurance.h"
 
 static alp_result color_object(alpi_bake_job *job, alpi_object *object,
@@ -28,5 +29,8 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job)
     const alpi_object_stage stage = {.name = "obscurance",
                                      .rays = (uint64_t)texels * job->report.ao_samples,
                                      .each = color_object};
-    return alpi_gathering_run(job, &stage);
+    (void)alpi_tiles_split(job->context, true);
+    const alp_result result = alpi_gathering_run(job, &stage);
+    (void)alpi_tiles_split(job->context, false);
+    return result;
 }

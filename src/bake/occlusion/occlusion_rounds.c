@@ -2,6 +2,7 @@
 // The rounds: trace, measure the error, plan the next round.
 #include "bake/occlusion/occlusion_rounds.h"
 
+#include "bake/bake_checkpoint.h"
 #include "bake/occlusion/occlusion_error.h"
 #include "bake/occlusion/occlusion_lattice.h"
 #include "bake/occlusion/occlusion_plan.h"
@@ -31,6 +32,7 @@ static alp_result trace_rounds(alpi_occlusion_state *state)
         ALP_TRY(trace_round(state));
         state->report->samples = samples;
         ALP_TRY(alpi_occlusion_measure_error(state));
+        alpi_bake_note_error(state->task->setup->context, state->report->relative);
         samples = alpi_occlusion_next_samples(state->task, state->report);
     }
     return ALP_OK;

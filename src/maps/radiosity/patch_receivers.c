@@ -60,11 +60,13 @@ static void start_receivers(const alpi_solver *s)
 /// Traces the first rays of listed receivers, unless no step needs them.
 static alp_result trace_first_rays(alpi_solver *s, const uint32_t *list, uint32_t count)
 {
-    const alpi_gather_job job = alpi_solver_job(s, list, count);
+    alpi_gather_job job = alpi_solver_job(s, list, count);
     const alpi_patches *p = &s->r->patches;
     if (!s->r->kept && !p->two_sided && !s->from.sky && p->texels->valid == NULL) {
         return ALP_OK;
     }
+    job.marks = p->two_sided ? p->seen_backs : NULL;
+    job.mark_count = p->two_sided ? p->patch_count : 0;
     s->r->rays += (uint64_t)count * job.gatherer->packet_count * ALPI_PACKET;
     return s->r->kept ? alpi_kept_rays_trace(&job, &s->progress, &s->kept)
                       : alpi_gather_irradiance(&job, &s->progress);

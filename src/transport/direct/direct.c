@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "base/memory.h"
+#include "base/tiles/tiles.h"
 #include "base/warp.h"
 #include "scene/lights/triangle_light.h"
 #include "transport/direct/direct_gather.h"
@@ -6,7 +8,6 @@
 #include "transport/paths/hit.h"
 #include "transport/paths/panes.h"
 
-#include <stdatomic.h>
 #include <string.h>
 
 enum { R = ALPI_DIRECT_REPLICATES };
@@ -23,7 +24,7 @@ typedef struct direct_job {
     uint32_t count; // of the list
     alpi_direct_output *output;
     alpi_direct_halves halves;
-    _Atomic uint64_t rays;
+    uint64_t *rays; // [blocks] that each block sent
 } direct_job;
 
 // --- surfaces and sky that are asked -------------------------------------------------------------
@@ -341,9 +342,10 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
         for (uint32_t i = b * ALPI_PACKET; count < ALPI_PACKET && i < job->count; i++) {
             block[count++] = job->list != NULL ? job->list[i] : i;
         }
+        const uint64_t before = g.rays + g.polygons.rays;
         result = gather_block(&g, block, count, b * ALPI_PACKET, &job->halves);
+        job->rays[b] = g.rays + g.polygons.rays - before;
     }
-    atomic_fetch_add_explicit(&job->rays, g.rays + g.polygons.rays, memory_order_relaxed);
     return result;
 }
 
@@ -360,6 +362,69 @@ static double draw_time(const alpi_direct *direct)
     return direct->sky_drawn || direct->sky_spots ? fmax(SKY, surface) : surface;
 }
 
+// --- the loop ------------------------------------------------------------------------------------
+
+/// Groups of an output.
+static uint32_t count_groups(const alpi_direct *direct, const alpi_direct_output *output)
+{
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < direct->part_count && output->groups != NULL; p++) {
+        count = output->part_groups[p] >= count ? output->part_groups[p] + 1 : count;
+    }
+    return count;
+}
+
+/// The arrays that blocks write.
+/// @param outputs [5 + groups] out   @return how many
+static uint32_t list_outputs(const direct_job *job, uint32_t groups, alpi_tile_output *outputs)
+{
+    const alpi_direct_output *o = job->output;
+    const uint32_t blocks = job->count / ALPI_PACKET + (job->count % ALPI_PACKET != 0);
+    const alpi_tile_output each = {.list = job->list, .count = job->count, .each = ALPI_PACKET};
+    uint32_t n = 0;
+    outputs[n] = each;
+    outputs[n].data = o->values;
+    outputs[n++].size = sizeof *o->values;
+    outputs[n] = each;
+    outputs[n].data = o->parts;
+    outputs[n++].size = job->direct->part_count * sizeof *o->parts;
+    outputs[n] = each;
+    outputs[n].data = o->directional;
+    outputs[n++].size = sizeof *o->directional;
+    for (uint32_t g = 0; g < groups; g++) {
+        outputs[n] = each;
+        outputs[n].data = o->groups[g];
+        outputs[n++].size = sizeof *o->groups[g];
+    }
+    outputs[n++] = (alpi_tile_output){
+        .data = job->halves.sums, .size = sizeof *job->halves.sums, .count = blocks};
+    outputs[n++] =
+        (alpi_tile_output){.data = job->rays, .size = sizeof *job->rays, .count = blocks};
+    return n;
+}
+
+static alp_result run_blocks(direct_job *job, uint32_t blocks, const alpi_task_progress *progress)
+{
+    alp_context *context = job->direct->options.context;
+    const uint32_t groups = count_groups(job->direct, job->output);
+    alpi_tile_output *outputs = ALPI_NEW(context, alpi_tile_output, 5 + groups);
+    if (outputs == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alpi_tile_loop loop = {
+        .name = "direct",
+        .count = blocks,
+        .grain = (uint32_t)fmax(2048.0 / progress->units_per_item, 1.0), // about one millisecond
+        .body = gather_range,
+        .user = job,
+        .progress = progress,
+        .outputs = outputs,
+        .output_count = list_outputs(job, groups, outputs)};
+    const alp_result result = alpi_tile_loop_run(context, &loop);
+    alpi_release(context, outputs);
+    return result;
+}
+
 alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receivers *receivers,
                                   const uint32_t *list, uint32_t list_count,
                                   const alpi_task_progress *progress, alpi_direct_output *output)
@@ -369,18 +434,18 @@ alp_result alpi_direct_irradiance(const alpi_direct *direct, const alpi_receiver
     const uint32_t blocks = job.count / ALPI_PACKET + (job.count % ALPI_PACKET != 0);
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = fmax(alpi_direct_most_rays(direct, receivers->extended, job.count), 1.0);
-    const uint32_t grain =
-        (uint32_t)fmax(2048.0 / told.units_per_item, 1.0); // about one millisecond
     alp_result result = alpi_direct_halves_create(direct, job.count, &job.halves);
-    if (result == ALP_OK) {
-        result =
-            alpi_parallel_for(direct->options.context, blocks, grain, gather_range, &job, &told);
-    }
+    job.rays = ALPI_NEW(direct->options.context, uint64_t, blocks);
+    result = result == ALP_OK && job.rays == NULL ? ALP_ERROR_OUT_OF_MEMORY : result;
+    result = result == ALP_OK ? run_blocks(&job, blocks, &told) : result;
     if (result == ALP_OK) {
         result = alpi_direct_scale_variances(direct, list, job.count, &job.halves, output);
     }
     alpi_direct_halves_release(direct, &job.halves);
-    output->rays += atomic_load(&job.rays);
+    for (uint32_t b = 0; b < blocks && job.rays != NULL; b++) {
+        output->rays += job.rays[b];
+    }
+    alpi_release(direct->options.context, job.rays);
     output->draw = draw_time(direct);
     return result;
 }

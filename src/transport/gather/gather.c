@@ -452,6 +452,19 @@ static alp_result gather_receivers(void *user, uint32_t begin, uint32_t end, uin
     return ALP_OK;
 }
 
+void alpi_gather_outputs(const alpi_gather_job *job, alpi_tile_output outputs[ALPI_GATHER_OUTPUTS])
+{
+    const alpi_tile_output each = {.list = job->list, .count = job->count};
+    void *const data[] = {job->values, job->skies, job->lost, job->directional};
+    const size_t sizes[] = {sizeof *job->values, sizeof *job->skies, sizeof *job->lost,
+                            sizeof *job->directional};
+    for (int i = 0; i < ALPI_GATHER_OUTPUTS; i++) {
+        outputs[i] = each;
+        outputs[i].data = data[i];
+        outputs[i].size = sizes[i];
+    }
+}
+
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress)
 {
     enum { RAYS_PER_RANGE = 1024 }; // about a tenth of a millisecond
@@ -461,7 +474,18 @@ alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_pr
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)rays;
     told.units_are_rays = true;
-    return alpi_parallel_for(job->context, job->count,
-                             rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1, gather_receivers,
-                             &own, &told);
+    alpi_tile_output outputs[ALPI_GATHER_OUTPUTS];
+    alpi_gather_outputs(job, outputs);
+    return alpi_tile_loop_run(
+        job->context,
+        &(alpi_tile_loop){.name = "gather",
+                          .count = job->count,
+                          .grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1,
+                          .body = gather_receivers,
+                          .user = &own,
+                          .progress = &told,
+                          .outputs = outputs,
+                          .output_count = ALPI_GATHER_OUTPUTS,
+                          .marks = job->marks,
+                          .mark_count = job->mark_count});
 }

@@ -3,6 +3,7 @@
 #ifndef ALPI_TRANSPORT_GATHER_H
 #define ALPI_TRANSPORT_GATHER_H
 
+#include "base/tiles/tiles.h"
 #include "scene/lights/lighting.h"
 #include "scene/receivers.h"
 #include "transport/directional.h"
@@ -117,9 +118,16 @@ typedef struct alpi_gather_job {
                                    // and of those that met a black back; under the same conditions
     alpi_directional *directional; // [receivers] or NULL
     bool directional_without_sky;  // under the same conditions
+    uint8_t *marks;                // [mark_count] set as rays meet surface light, or NULL
+    size_t mark_count;
 } alpi_gather_job;
 
-/// @return ALP_OK; CANCELLED. The same bits for any number of workers.
+enum { ALPI_GATHER_OUTPUTS = 4 };
+/// The arrays of a job, as outputs of a loop over its receivers.
+void alpi_gather_outputs(const alpi_gather_job *job,
+                         alpi_tile_output outputs[ALPI_GATHER_OUTPUTS]);
+
+/// @return ALP_OK; CANCELLED; of alpi_tile_loop_run. The same bits for any number of workers.
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress);
 
 /// Whether rays meet only surface light in cells and the sky.

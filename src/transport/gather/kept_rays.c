@@ -29,11 +29,15 @@ alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gat
     if (cells == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
-    *kept = (alpi_kept_rays){.context = context,
-                             .receivers = count,
-                             .rays = rays,
-                             .cells = cells,
-                             .by_list = kept->by_list};
+    kept->context = context;
+    kept->cells = cells;
+    uint8_t *traced = alpi_reallocate(context, kept->traced, count, sizeof *traced);
+    if (traced == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    kept->traced = traced;
+    kept->receivers = count;
+    kept->rays = rays;
     return ALP_OK;
 }
 
@@ -41,6 +45,7 @@ void alpi_kept_rays_destroy(alpi_kept_rays *kept)
 {
     if (kept->context != NULL) {
         alpi_release(kept->context, kept->cells);
+        alpi_release(kept->context, kept->traced);
     }
     *kept = (alpi_kept_rays){0};
 }
@@ -55,11 +60,47 @@ static uint32_t receiver_at(const alpi_gather_job *job, uint32_t i)
     return job->list != NULL ? job->list[i] : i;
 }
 
+static size_t row_of(const kept_job *k, uint32_t i)
+{
+    return k->kept->by_list ? i : receiver_at(k->job, i);
+}
+
 /// The rays of the i-th of the list.
 static uint32_t *rays_of(const kept_job *k, uint32_t i)
 {
-    const size_t row = k->kept->by_list ? i : receiver_at(k->job, i);
-    return k->kept->cells + row * k->kept->rays;
+    return k->kept->cells + row_of(k, i) * k->kept->rays;
+}
+
+/// Traces the rays of the i-th of the list. @param sums out
+static alp_result trace_row(const kept_job *k, uint32_t i, alpi_gather_sums *sums)
+{
+    const alpi_gather_job *job = k->job;
+    const alpi_gatherer *g = job->gatherer;
+    uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
+    alpi_gather_packet packets[ALPI_GATHER_BATCH];
+    vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
+    *sums = (alpi_gather_sums){.lost = {0.0}};
+    for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
+        const uint32_t left = g->packet_count - first;
+        const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
+        g->aim(g->user, job->receivers, receiver_at(job, i), first, count, packets, NULL);
+        alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
+        if (job->from->sky) {
+            alpi_gather_find_skies(job->from, packets, count,
+                                   (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
+        }
+        for (uint32_t p = 0; p < count; p++) {
+            alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells, sums);
+            if (job->from->sky) {
+                alpi_gather_add_sky(g, first + p, cells[first + p], skies[p], sums);
+            }
+        }
+        if (!alpi_loop_goes_on(job->context)) {
+            return ALP_ERROR_CANCELLED;
+        }
+    }
+    k->kept->traced[row_of(k, i)] = 1;
+    return ALP_OK;
 }
 
 static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -67,33 +108,10 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     (void)worker;
     const kept_job *k = user;
     const alpi_gather_job *job = k->job;
-    const alpi_gatherer *g = job->gatherer;
-    alpi_gather_packet packets[ALPI_GATHER_BATCH];
-    vec3 skies[ALPI_GATHER_BATCH][ALPI_PACKET];
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
-        uint32_t(*cells)[ALPI_PACKET] = (uint32_t(*)[ALPI_PACKET])rays_of(k, i);
-        alpi_gather_sums sums = {.lost = {0.0}};
-        for (uint32_t first = 0; first < g->packet_count; first += ALPI_GATHER_BATCH) {
-            const uint32_t left = g->packet_count - first;
-            const uint32_t count = left < ALPI_GATHER_BATCH ? left : ALPI_GATHER_BATCH;
-            g->aim(g->user, job->receivers, receiver, first, count, packets, NULL);
-            alpi_gather_cells(job->from, packets, count, g->coherent, &cells[first]);
-            if (job->from->sky) {
-                alpi_gather_find_skies(job->from, packets, count,
-                                       (const uint32_t(*)[ALPI_PACKET]) & cells[first], skies);
-            }
-            for (uint32_t p = 0; p < count; p++) {
-                alpi_gather_add_cells(g, first + p, cells[first + p], job->from->light.cells,
-                                      &sums);
-                if (job->from->sky) {
-                    alpi_gather_add_sky(g, first + p, cells[first + p], skies[p], &sums);
-                }
-            }
-            if (!alpi_loop_goes_on(job->context)) {
-                return ALP_ERROR_CANCELLED;
-            }
-        }
+        alpi_gather_sums sums;
+        ALP_TRY(trace_row(k, i, &sums));
         for (int c = 0; c < 3 && job->skies != NULL; c++) {
             job->skies[receiver][c] = (float)(ALPI_PI * sums.sky[c]);
         }
@@ -105,13 +123,19 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
 }
 
 /// Runs a body over the listed receivers, so many rays at a time.
-static alp_result run(kept_job *k, uint32_t together, alpi_task_fn *body,
-                      const alpi_task_progress *progress)
+static alp_result run(kept_job *k, uint32_t together, alpi_tile_loop loop,
+                      const alpi_gather_job *written)
 {
     const uint32_t rays = k->kept->rays;
+    alpi_tile_output outputs[ALPI_GATHER_OUTPUTS];
     assert(!k->kept->by_list || k->job->count <= k->kept->receivers);
-    return alpi_parallel_for(k->job->context, k->job->count, rays < together ? together / rays : 1,
-                             body, k, progress);
+    alpi_gather_outputs(written, outputs);
+    loop.count = k->job->count;
+    loop.grain = rays < together ? together / rays : 1;
+    loop.user = k;
+    loop.outputs = outputs;
+    loop.output_count = ALPI_GATHER_OUTPUTS;
+    return alpi_tile_loop_run(k->job->context, &loop);
 }
 
 alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_progress *progress,
@@ -122,7 +146,17 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)kept->rays;
     told.units_are_rays = true;
-    return run(&k, TRACED_PER_RANGE, trace_range, &told);
+    alpi_gather_job written = *job;
+    written.values = NULL;
+    written.directional = NULL;
+    return run(&k, TRACED_PER_RANGE,
+               (alpi_tile_loop){.name = "first rays",
+                                .body = trace_range,
+                                .progress = &told,
+                                .marks = job->marks,
+                                .mark_count = job->mark_count,
+                                .fills_cache = true},
+               &written);
 }
 
 static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -135,7 +169,11 @@ static alp_result gather_range(void *user, uint32_t begin, uint32_t end, uint32_
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t receiver = receiver_at(job, i);
         const uint32_t(*cells)[ALPI_PACKET] = (const uint32_t(*)[ALPI_PACKET])rays_of(k, i);
-        alpi_gather_sums sums = {.lost = {0.0}};
+        alpi_gather_sums sums;
+        if (k->kept->traced[row_of(k, i)] == 0) {
+            ALP_TRY(trace_row(k, i, &sums));
+        }
+        sums = (alpi_gather_sums){.lost = {0.0}};
         for (uint32_t p = 0; p < job->gatherer->packet_count; p++) {
             for (int r = 0; r < ALPI_PACKET && p + AHEAD < job->gatherer->packet_count; r++) {
                 __builtin_prefetch(job->from->light.cells[cells[p + AHEAD][r]]);
@@ -152,5 +190,9 @@ alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_ray
 {
     alpi_gather_check(job->gatherer);
     kept_job k = {job, kept};
-    return run(&k, ADDED_PER_RANGE, gather_range, progress);
+    alpi_gather_job written = *job;
+    written.skies = NULL;
+    return run(&k, ADDED_PER_RANGE,
+               (alpi_tile_loop){.name = "kept rays", .body = gather_range, .progress = progress},
+               &written);
 }

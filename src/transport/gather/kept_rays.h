@@ -11,6 +11,7 @@ typedef struct alpi_kept_rays {
     uint32_t receivers; // that there is room for
     uint32_t rays;      // of each
     uint32_t *cells;    // [receivers][rays]
+    uint8_t *traced;    // [receivers] 1 for rows whose rays were traced by this process
     bool by_list;       // the i-th row is of the i-th receiver of the one list that all jobs have,
                         // not of receiver i; the caller's to set, before any is traced
 } alpi_kept_rays;
@@ -34,7 +35,8 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
                                 alpi_kept_rays *kept);
 
 /// What alpi_gather_irradiance would find for the listed receivers without a sky, bit for bit, with
-/// the light that is in the cells now. Leaves job->skies alone.
+/// the light that is in the cells now. Rays that another process traced are traced first. Leaves
+/// job->skies alone.
 /// @return ALP_OK; CANCELLED
 alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_rays *kept,
                                  const alpi_task_progress *progress);

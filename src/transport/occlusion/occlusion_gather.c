@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "base/tasks.h"
+#include "base/tiles/tiles.h"
 
 #include <assert.h>
 #include <string.h>
@@ -149,6 +149,25 @@ static alp_result run_range(void *user, uint32_t begin, uint32_t end, uint32_t w
     return ALP_OK;
 }
 
+static alp_result run_samples(gather_job *job, uint32_t count, uint32_t grain,
+                              const alpi_task_progress *progress)
+{
+    const alpi_occlusion_sums *s = job->sums;
+    const alpi_tile_output outputs[] = {
+        {.data = s->open, .size = sizeof *s->open, .list = job->list, .count = count},
+        {.data = s->done, .size = sizeof *s->done, .list = job->list, .count = count},
+        {.data = s->vectors, .size = sizeof *s->vectors, .list = job->list, .count = count}};
+    return alpi_tile_loop_run(job->setup->context,
+                              &(alpi_tile_loop){.name = "occlusion",
+                                                .count = count,
+                                                .grain = grain,
+                                                .body = run_range,
+                                                .user = job,
+                                                .progress = progress,
+                                                .outputs = outputs,
+                                                .output_count = 3});
+}
+
 // Nine arguments, internal: a struct of three numbers would say no more.
 // NOLINTNEXTLINE(readability-function-size)
 alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_receivers *receivers,
@@ -170,8 +189,7 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
         const alpi_sample_range range = {first + done, job.samples, sums->parted, total};
         ALP_TRY(alpi_sample_run_create(setup, receivers->extended, &range, &job.run));
         const uint32_t grain = job.samples < RAYS_PER_RANGE ? RAYS_PER_RANGE / job.samples : 1;
-        const alp_result result =
-            alpi_parallel_for(setup->context, list_count, grain, run_range, &job, &told);
+        const alp_result result = run_samples(&job, list_count, grain, &told);
         alpi_sample_run_destroy(&job.run);
         ALP_TRY(result);
     }

@@ -2,7 +2,7 @@
 #include "transport/paths/reference.h"
 
 #include "base/random.h"
-#include "base/tasks.h"
+#include "base/tiles/tiles.h"
 #include "transport/paths/paths.h"
 
 #include <math.h>
@@ -250,8 +250,20 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
     job.chunk = (each < PATHS_PER_CHUNK ? PATHS_PER_CHUNK / each : 1) * job.lanes;
     alpi_task_progress told = progress != NULL ? *progress : (alpi_task_progress){0};
     told.units_per_item = (double)samples * job.chunk;
-    return alpi_parallel_for(own.context, job.count / job.chunk + (job.count % job.chunk != 0), 1,
-                             gather_chunks, &job, &told);
+    const alpi_tile_output output = {.data = values,
+                                     .size = sizeof *values,
+                                     .list = list,
+                                     .count = job.count,
+                                     .each = job.chunk};
+    return alpi_tile_loop_run(
+        own.context, &(alpi_tile_loop){.name = "paths",
+                                       .count = job.count / job.chunk + (job.count % job.chunk != 0),
+                                       .grain = 1,
+                                       .body = gather_chunks,
+                                       .user = &job,
+                                       .progress = &told,
+                                       .outputs = &output,
+                                       .output_count = 1});
 }
 
 // --- pictures ------------------------------------------------------------------------------------

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "bake/checkpoint_settings.h"
+
+#include "base/hash.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+static void add_number(alpi_bytes *b, const char *name, double value)
+{
+    alpi_bytes_print(b, "%s ", name);
+    if (value - value == 0.0) {
+        alpi_bytes_number(b, value, 17);
+    } else {
+        alpi_bytes_print(b, "%s", value > 0.0 ? "inf" : "none");
+    }
+    alpi_bytes_print(b, "\n");
+}
+
+static void add_count(alpi_bytes *b, const char *name, uint64_t value)
+{
+    alpi_bytes_print(b, "%s %" PRIu64 "\n", name, value);
+}
+
+static void add_hash(alpi_bytes *b, const char *name, uint64_t hash)
+{
+    alpi_bytes_print(b, "%s %016" PRIx64 "\n", name, hash);
+}
+
+/// Text in one line: control characters become spaces.
+static void add_text(alpi_bytes *b, const char *name, const char *text)
+{
+    alpi_bytes_print(b, "%s ", name);
+    for (const char *c = text != NULL ? text : "none"; *c != '\0'; c++) {
+        const char shown = (unsigned char)*c < ' ' ? ' ' : *c;
+        alpi_bytes_add(b, &shown, 1);
+    }
+    alpi_bytes_print(b, "\n");
+}
+
+// --- the scene -----------------------------------------------------------------------------------
+
+/// Fingerprint of shape and lights, which a pose moves.
+static uint64_t hash_pose(const alp_scene *scene)
+{
+    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, scene->positions,
+                                    scene->vertex_count * sizeof *scene->positions);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const alpi_light *l = &scene->lights[i];
+        hash = alpi_hash_bytes(hash, &l->position, sizeof l->position);
+        hash = alpi_hash_bytes(hash, &l->direction, sizeof l->direction);
+    }
+    return hash;
+}
+
+static void add_scene(const alpi_bake_job *job, alpi_bytes *b)
+{
+    const alp_scene *scene = job->scene;
+    add_text(b, "alpenglow", alp_version());
+    add_text(b, "instructions", alpi_context_isa(job->context));
+    add_hash(b, "SCENE-content", scene->input_hash);
+    add_hash(b, "pose", hash_pose(scene));
+    add_count(b, "triangles", scene->triangle_count);
+    add_text(b, "--metals", scene->metals_black ? "black" : "diffuse");
+}
+
+// --- options -------------------------------------------------------------------------------------
+
+static void add_atlas(const alp_atlas_options *o, alpi_bytes *b)
+{
+    add_count(b, "--atlas", (uint64_t)o->mode);
+    add_count(b, "--size", o->size);
+    add_number(b, "--texels-per-metre", o->texels_per_metre);
+    add_count(b, "--padding", o->padding);
+    add_number(b, "max-angle", (double)o->max_angle);
+    add_count(b, "--block", o->block);
+    add_count(b, "--mips", o->mips);
+    add_text(b, "--density", o->densities);
+}
+
+static void add_occlusion(const alp_bake_options *all, alpi_bytes *b)
+{
+    const alp_occlusion_options *o = &all->occlusion;
+    add_count(b, "--ao-samples", o->samples);
+    add_number(b, "--ao-distance", (double)o->distance);
+    add_count(b, "--ao-falloff", (uint64_t)o->falloff);
+    add_number(b, "--ao-cone", (double)o->cone);
+    add_count(b, "--ao-distribution", (uint64_t)o->distribution);
+    add_count(b, "--one-sided", o->one_sided);
+    add_count(b, "--ao-self", all->ao_self);
+    add_count(b, "--seed", o->seed);
+    add_count(b, "--existing-ao", (uint64_t)all->existing_ao);
+    add_count(b, "--ao-into", (uint64_t)all->ao_into);
+}
+
+static uint64_t hash_image(const alp_image *image)
+{
+    const alp_image_info info = alp_image_get_info(image);
+    const size_t size = info.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
+    return alpi_hash_bytes(ALPI_HASH_START, alp_image_pixels(image),
+                           (size_t)info.width * info.height * info.channels * size);
+}
+
+static uint64_t hash_lamps(const alp_lighting_options *o)
+{
+    uint64_t hash = ALPI_HASH_START;
+    for (uint32_t i = 0; i < o->lamp_count; i++) {
+        const alp_lamp *l = &o->lamps[i];
+        const float kind = (float)l->kind;
+        hash = alpi_hash_bytes(hash, &kind, sizeof kind);
+        hash = alpi_hash_bytes(hash, l->position, sizeof l->position);
+        hash = alpi_hash_bytes(hash, l->direction, sizeof l->direction);
+        hash = alpi_hash_bytes(hash, &l->intensity, sizeof l->intensity);
+        hash = alpi_hash_bytes(hash, l->color, sizeof l->color);
+        hash = alpi_hash_bytes(hash, &l->inner_cone, sizeof l->inner_cone);
+        hash = alpi_hash_bytes(hash, &l->outer_cone, sizeof l->outer_cone);
+    }
+    return hash;
+}
+
+static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
+{
+    const alp_sky_options *sky = &o->sky;
+    const alp_sun_options *sun = &o->sun;
+    add_count(b, "--sky", (uint64_t)sky->kind);
+    for (int k = 0; k < 3; k++) {
+        add_number(b, k == 0 ? "--sky-red" : k == 1 ? "--sky-green" : "--sky-blue",
+                   (double)sky->up[k]);
+        add_number(b, k == 0 ? "--sky-red-down" : k == 1 ? "--sky-green-down" : "--sky-blue-down",
+                   (double)sky->down[k]);
+        add_number(b, k == 0 ? "--sun-red" : k == 1 ? "--sun-green" : "--sun-blue",
+                   (double)sun->color[k]);
+    }
+    if (sky->kind == ALP_SKY_IMAGE && sky->image != NULL) {
+        add_hash(b, "--sky-image", hash_image(sky->image));
+    }
+    add_number(b, "--sky-turn", (double)sky->turn);
+    add_number(b, "--sky-strength", (double)sky->strength);
+    add_number(b, "turbidity", (double)sky->turbidity);
+    add_number(b, "--sun-azimuth", (double)sun->azimuth);
+    add_number(b, "--sun-elevation", (double)sun->elevation);
+    add_number(b, "--sun-illuminance", (double)sun->illuminance);
+    add_number(b, "--sun-size", (double)sun->size);
+    add_number(b, "file-sun-size", (double)o->file_sun_size);
+    add_count(b, "lamps", o->lamp_count);
+    add_hash(b, "--lamp", hash_lamps(o));
+}
+
+static void add_light(const alp_bake_options *all, alpi_bytes *b)
+{
+    const alp_light_options *o = &all->light;
+    add_lighting(&o->lighting, b);
+    add_count(b, "--gather", (uint64_t)o->gather);
+    add_count(b, "--direct", (uint64_t)o->direct);
+    add_count(b, "--bounces", o->bounces);
+    add_number(b, "light-error", (double)o->error);
+    add_count(b, "bounded", o->bounded);
+    add_count(b, "--samples", o->samples);
+    add_count(b, "--denoise", o->denoise);
+    add_count(b, "--hemicube", o->hemicube);
+    add_count(b, "--emitters", (uint64_t)o->emitters);
+    add_count(b, "--layers", o->layers);
+    add_count(b, "--lightmap-as", (uint64_t)all->lightmap_as);
+    add_count(b, "--units", (uint64_t)all->light_units);
+}
+
+static void add_probes(const alp_probe_options *o, alpi_bytes *b)
+{
+    uint64_t hash = ALPI_HASH_START;
+    if (o == NULL) {
+        return;
+    }
+    if (o->positions != NULL) {
+        hash = alpi_hash_bytes(hash, o->positions, o->position_count * sizeof *o->positions);
+    }
+    hash = alpi_hash_bytes(hash, o->bounds_min, sizeof o->bounds_min);
+    hash = alpi_hash_bytes(hash, o->bounds_max, sizeof o->bounds_max);
+    add_number(b, "--spacing", (double)o->spacing);
+    add_hash(b, "probe-places", hash);
+    add_count(b, "--basis", (uint64_t)o->basis);
+    add_count(b, "--visibility", o->visibility);
+    add_count(b, "--gradients", o->gradients);
+    add_count(b, "probe-rays", o->rays);
+}
+
+alpi_bytes alpi_bake_settings(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    alpi_bytes b = alpi_bytes_create(job->context);
+    add_scene(job, &b);
+    add_count(&b, "--maps", o->maps);
+    add_atlas(&o->atlas, &b);
+    add_occlusion(o, &b);
+    add_light(o, &b);
+    add_probes(o->probes, &b);
+    add_number(&b, "--adaptive", (double)o->sampling.accuracy);
+    add_number(&b, "--error", (double)o->sampling.error);
+    add_count(&b, "--memory-limit", o->sampling.memory_limit);
+    add_count(&b, "--stitch", o->stitch);
+    add_text(&b, "--only", o->only);
+    add_text(&b, "--occluders", o->occluders);
+    add_count(&b, "shards", o->checkpoint.shards);
+    return b;
+}

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+#include "base/tiles/tiles.h"
+
+#include "base/memory.h"
+#include "base/tiles/checkpoint.h"
+#include "base/tiles/tile_bytes.h"
+
+#include <alpenglow/ranks.h>
+
+#include <stdatomic.h>
+#include <string.h>
+
+alp_ranks alp_ranks_default(void)
+{
+    return (alp_ranks){.struct_size = sizeof(alp_ranks), .count = 1};
+}
+
+bool alpi_tiles_split(alp_context *context, bool allowed)
+{
+    alpi_tiles *tiles = alpi_context_tiles(context);
+    const bool former = tiles->split;
+    tiles->split = allowed;
+    return former;
+}
+
+/// One loop while it runs.
+typedef struct tile_run {
+    const alpi_tile_loop *loop;
+    alp_context *context;
+    alpi_tiles *tiles;
+    const alp_ranks *ranks;   // NULL: one process
+    uint32_t count;           // tiles
+    _Atomic uint8_t *states;  // [count] of alpi_tile_state
+    const uint32_t *picked;   // tiles of the batch; NULL: all
+    alpi_task_progress progress;
+} tile_run;
+
+// --- tiles ---------------------------------------------------------------------------------------
+
+/// Whether the shard of this process leaves a tile to others.
+static bool is_of_others(const tile_run *r, uint32_t tile)
+{
+    const alpi_tiles *t = r->tiles;
+    return t->shards > 0 && t->split && !t->merging && tile % t->shards != t->shard;
+}
+
+static alp_result run_tiles(void *user, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    tile_run *r = user;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint32_t tile = r->picked != NULL ? r->picked[i] : i;
+        if (atomic_load_explicit(&r->states[tile], memory_order_relaxed) == ALPI_TILE_OPEN &&
+            !is_of_others(r, tile)) {
+            ALP_TRY(r->loop->body(r->loop->user, alpi_tile_begin(r->loop, tile),
+                                  alpi_tile_begin(r->loop, tile + 1), worker));
+            atomic_store_explicit(&r->states[tile], ALPI_TILE_RAN, memory_order_release);
+        }
+        if (worker == 0 && r->ranks != NULL && r->ranks->poll != NULL) {
+            r->ranks->poll(r->ranks->user);
+        }
+    }
+    return ALP_OK;
+}
+
+/// Progress of the loop in units of a tile.
+static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles)
+{
+    alpi_task_progress p =
+        loop->progress != NULL ? *loop->progress : (alpi_task_progress){.callback = NULL};
+    const double each = p.units_per_item > 0.0 ? p.units_per_item : 1.0;
+    p.units_total = p.units_total > 0.0 ? p.units_total : p.units_before + each * loop->count;
+    p.units_per_item = each * loop->count / tiles;
+    p.started = p.started > 0.0 ? p.started : alpi_seconds();
+    return p;
+}
+
+// --- ranks ---------------------------------------------------------------------------------------
+
+// Tiles are dealt to ranks in turn, part p of n has tiles p, p + n, p + 2 n … Each rank claims tiles
+// of its own part first, then those that others have not claimed.
+
+/// What a rank sends before its tiles.
+typedef struct rank_head {
+    uint64_t shape;
+    int32_t result; // alp_result of the loop
+    uint32_t loop;
+} rank_head;
+
+/// Claims tiles of a part and runs them, until none is left.
+static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t most)
+{
+    const uint32_t n = r->ranks->count;
+    const uint32_t size = r->count > part ? (r->count - part - 1) / n + 1 : 0;
+    for (;;) {
+        const uint64_t first =
+            size > 0 ? r->ranks->claim(r->ranks->user, r->tiles->claims, part, most) : size;
+        if (first == UINT64_MAX) {
+            return alpi_fail(r->context, ALP_ERROR_IO, "rank %u: another rank cannot be reached",
+                             r->ranks->rank);
+        }
+        if (first >= size) {
+            return ALP_OK;
+        }
+        const uint32_t count = (uint32_t)(first + most < size ? most : size - first);
+        for (uint32_t i = 0; i < count; i++) {
+            batch[i] = (uint32_t)(first + i) * n + part;
+        }
+        r->picked = batch;
+        ALP_TRY(alpi_parallel_for(r->context, count, 1, run_tiles, r, &r->progress));
+        r->progress.units_before += r->progress.units_per_item * count * n;
+    }
+}
+
+/// Tiles claimed at once: enough for all workers, and few beside the rank's share.
+static uint32_t batch_size(const tile_run *r)
+{
+    enum { BATCHES = 32 };
+    const uint32_t workers = alp_context_worker_count(r->context);
+    const uint32_t share = r->count / r->ranks->count / BATCHES;
+    return share > workers ? share / workers * workers : workers;
+}
+
+static alp_result run_parts(tile_run *r)
+{
+    const uint32_t n = r->ranks->count, most = batch_size(r);
+    uint32_t *batch = ALPI_NEW(r->context, uint32_t, most);
+    alp_result result = batch != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    for (uint32_t i = 0; i < n && result == ALP_OK; i++) {
+        result = run_part(r, (r->ranks->rank + i) % n, batch, most);
+    }
+    for (uint32_t i = 0; i < n && result != ALP_OK; i++) { // leaves none to the others
+        (void)r->ranks->claim(r->ranks->user, r->tiles->claims, i, UINT32_MAX);
+    }
+    alpi_release(r->context, batch);
+    return result;
+}
+
+/// Takes the tiles of another rank.
+typedef struct receiving {
+    tile_run *run;
+    rank_head own;
+    alp_result result; // of the lowest rank that failed
+    bool differs;      // a rank runs another loop
+} receiving;
+
+static bool receive(void *receiver, uint32_t rank, const void *bytes, size_t size)
+{
+    receiving *r = receiver;
+    const alpi_tile_loop *loop = r->run->loop;
+    const uint8_t *at = bytes;
+    rank_head head;
+    (void)rank;
+    if (size < sizeof head) {
+        return false;
+    }
+    memcpy(&head, at, sizeof head);
+    if (head.shape != r->own.shape || head.loop != r->own.loop) {
+        r->differs = true;
+        return true;
+    }
+    if (head.result != ALP_OK) {
+        r->result = r->result == ALP_OK ? (alp_result)head.result : r->result;
+        return true;
+    }
+    if (size - sizeof head < loop->mark_count) {
+        return false;
+    }
+    for (size_t i = 0; i < loop->mark_count; i++) {
+        loop->marks[i] |= at[sizeof head + i];
+    }
+    const size_t before = sizeof head + loop->mark_count;
+    return alpi_tile_unpack(loop, at + before, size - before, r->run->states);
+}
+
+static alp_result judge(const receiving *r, bool exchanged, alp_result own)
+{
+    const tile_run *run = r->run;
+    if (own != ALP_OK) {
+        return own;
+    }
+    if (!exchanged || r->differs) {
+        return alpi_fail(run->context, ALP_ERROR_IO,
+                         exchanged ? "the ranks run different bakes; start all of them with the "
+                                     "same command, file and version"
+                                   : "another rank is gone, or its tiles were damaged; run the "
+                                     "command again, --checkpoint goes on from what was written");
+    }
+    if (r->result != ALP_OK) {
+        return alpi_fail(run->context, r->result, "another rank stopped");
+    }
+    for (uint32_t i = 0; i < run->count; i++) {
+        if (run->states[i] == ALPI_TILE_OPEN) {
+            return alpi_fail(run->context, ALP_ERROR_IO,
+                             "a rank reads tiles of the checkpoint that others cannot read; "
+                             "--checkpoint needs a folder that all ranks share");
+        }
+    }
+    return ALP_OK;
+}
+
+/// Sends the tiles that this rank ran, with its result, and takes those of the others.
+static alp_result exchange(tile_run *r, alp_result result)
+{
+    alpi_bytes bytes = alpi_bytes_create(r->context);
+    receiving in = {.run = r,
+                    .own = {alpi_tile_shape(r->loop), result, r->tiles->next - 1}};
+    uint32_t from = 0;
+    alpi_bytes_add(&bytes, &in.own, sizeof in.own);
+    alpi_bytes_add(&bytes, r->loop->marks, r->loop->mark_count);
+    (void)alpi_tile_pack(r->loop, r->states, 1u << ALPI_TILE_RAN | 1u << ALPI_TILE_KEPT, false,
+                         &from, SIZE_MAX, &bytes);
+    const rank_head failed = {in.own.shape, ALP_ERROR_OUT_OF_MEMORY, in.own.loop};
+    const void *sent = bytes.failed ? (const void *)&failed : bytes.bytes;
+    const bool good = r->ranks->exchange(r->ranks->user, sent,
+                                         bytes.failed ? sizeof failed : bytes.size, receive, &in);
+    result = bytes.failed && result == ALP_OK ? ALP_ERROR_OUT_OF_MEMORY : result;
+    alpi_bytes_destroy(&bytes);
+    r->tiles->claims++;
+    return judge(&in, good, result);
+}
+
+// --- a loop --------------------------------------------------------------------------------------
+
+/// Notes which shards' tiles are missing. @return whether any is
+static bool find_missing(const tile_run *r)
+{
+    bool any = false;
+    const alpi_tiles *t = r->tiles;
+    for (uint32_t i = 0; i < r->count && t->merging && t->split; i++) {
+        if (r->states[i] == ALPI_TILE_OPEN) {
+            t->missing[i % t->shards] = true;
+            any = true;
+        }
+    }
+    return any;
+}
+
+static void count_tiles(const tile_run *r)
+{
+    for (uint32_t i = 0; i < r->count; i++) {
+        const uint8_t state = r->states[i];
+        r->tiles->ran += state == ALPI_TILE_RAN || state == ALPI_TILE_KEPT ? 1 : 0;
+        r->tiles->read += state == ALPI_TILE_READ ? 1 : 0;
+        r->tiles->skipped += state == ALPI_TILE_OPEN ? 1 : 0;
+    }
+}
+
+static alp_result run(tile_run *r)
+{
+    alpi_tiles *t = r->tiles;
+    if (t->checkpoint != NULL) {
+        (void)alpi_checkpoint_begin_loop(t->checkpoint, r->loop, t->next - 1, r->states);
+    }
+    alp_result result = ALP_OK;
+    if (!find_missing(r)) {
+        result = r->ranks != NULL
+                     ? run_parts(r)
+                     : alpi_parallel_for(r->context, r->count, 1, run_tiles, r, &r->progress);
+    }
+    if (r->ranks != NULL) {
+        result = exchange(r, result);
+    }
+    if (t->checkpoint != NULL) {
+        alpi_checkpoint_end_loop(t->checkpoint);
+    }
+    count_tiles(r);
+    return result;
+}
+
+alp_result alpi_tile_loop_run(alp_context *context, const alpi_tile_loop *loop)
+{
+    alpi_tiles *tiles = alpi_context_tiles(context);
+    const alp_ranks *ranks = alpi_context_ranks(context);
+    if (loop->count == 0) {
+        return ALP_OK;
+    }
+    tiles->next++;
+    if (tiles->checkpoint == NULL && ranks == NULL && tiles->shards == 0) {
+        return alpi_parallel_for(context, loop->count, loop->grain, loop->body, loop->user,
+                                 loop->progress);
+    }
+    tile_run r = {.loop = loop,
+                  .context = context,
+                  .tiles = tiles,
+                  .ranks = ranks,
+                  .count = alpi_tile_count(loop)};
+    r.progress = progress_of(loop, r.count);
+    r.states = alpi_allocate(context, r.count, sizeof *r.states);
+    if (r.states == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    const alp_result result = run(&r);
+    alpi_release(context, r.states);
+    return result;
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Tile loops: parallel loops whose results can be stored, sent to other processes, and read back.
+// The loops that trace rays are tile loops; others are run again by each process.
+//
+// A loop's items are cut into tiles of `grain` items. A tile's results are the elements of the
+// outputs that its items own, so they can be copied without knowledge of their meaning.
+#ifndef ALPI_BASE_TILES_H
+#define ALPI_BASE_TILES_H
+
+#include "base/tasks.h"
+
+/// An array that the items of a loop write. Item i owns elements [i × each, (i + 1) × each) of the
+/// list, and reads none of the others'.
+typedef struct alpi_tile_output {
+    void *data;           // NULL: there is none
+    size_t size;          // bytes of an element
+    const uint32_t *list; // [count] place of each element in `data`; NULL: in order
+    uint32_t count;       // elements; the last item may own fewer than `each`
+    uint32_t each;        // elements of an item; 0 = 1
+} alpi_tile_output;
+
+typedef struct alpi_tile_loop {
+    const char *name; // fixed; part of the loop's shape
+    uint32_t count;   // items
+    uint32_t grain;   // items of a tile
+    alpi_task_fn *body;
+    void *user;
+    const alpi_task_progress *progress; // NULL: silent
+    const alpi_tile_output *outputs;    // [output_count]
+    uint32_t output_count;
+    // Bytes that any item may set and none reads, or NULL. Processes combine them by "or". A loop
+    // with marks is never stored: a resumed process runs it again.
+    uint8_t *marks;
+    size_t mark_count;
+    // The body fills a cache that is neither stored nor sent. A resumed process runs the loop again.
+    bool fills_cache;
+} alpi_tile_loop;
+
+/// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With ranks,
+/// each process runs some tiles and receives the others. A shard runs its own tiles alone, if
+/// alpi_tiles_split allows it.
+/// @return ALP_OK; the failure of the lowest failing range; CANCELLED; IO (ranks that fail, or that
+///         run different loops); OUT_OF_MEMORY
+alp_result alpi_tile_loop_run(alp_context *context, const alpi_tile_loop *loop);
+
+/// Says whether a shard may leave tiles of the following loops to other shards: true if no later
+/// loop chooses its items by their results. @return the former value
+bool alpi_tiles_split(alp_context *context, bool allowed);
+
+struct alpi_checkpoint;
+/// The tiles of a context: who runs them, and where they are kept.
+typedef struct alpi_tiles {
+    struct alpi_checkpoint *checkpoint; // or NULL
+    uint32_t shard, shards;             // shard in [0, shards); shards 0: the whole
+    bool split;                         // see alpi_tiles_split
+    bool merging;                       // tiles are read from shards; see missing
+    uint32_t next;                      // number of the next loop of this bake
+    uint64_t claims;                    // number of the next loop of all
+    uint64_t ran, skipped, read;        // tiles of this bake so far
+    bool *missing;                      // [shards] merging: shards whose tiles are not there
+} alpi_tiles;
+
+#endif
