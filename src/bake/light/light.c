@@ -56,8 +56,7 @@ static alp_result trace_paths(alpi_light_bake *light)
 static alp_result bake_probes(alpi_bake_job *job, const alpi_surface_light *known)
 {
     const alp_bake_options *o = &job->options;
-    const alpi_tiles *tiles = alpi_context_tiles(job->context);
-    if ((o->maps & ALP_MAP_PROBES) == 0 || (tiles->shards > 0 && !tiles->merging)) {
+    if ((o->maps & ALP_MAP_PROBES) == 0 || alpi_tiles_are_shards(job->context)) {
         return ALP_OK;
     }
     alp_probe_options options = o->probes != NULL ? *o->probes : alp_probe_options_default();
@@ -77,7 +76,8 @@ static alp_result bake_probes(alpi_bake_job *job, const alpi_surface_light *know
 static alp_result gather(alpi_light_bake *light, alpi_light_rounds *rounds)
 {
     const alpi_light_settings *s = &light->settings;
-    (void)alpi_tiles_split(light->job->context, !s->in_rounds && !s->adaptive);
+    const bool split = !s->in_rounds && !s->adaptive;
+    (void)alpi_tiles_set_kind(light->job->context, split ? ALPI_TILES_SPLIT : ALPI_TILES_WHOLE);
     ALP_TRY(alpi_light_run_rounds(rounds));
     alpi_light_rounds_trim(rounds);
     if (light->job->options.light.denoise) {
@@ -97,7 +97,7 @@ static alp_result run_radiosity(alpi_light_bake *light, alpi_light_gatherers *ga
                                 .fixed = gatherers->texel_cube != NULL ? &gatherers->texels : NULL};
     const alp_result result = gather(light, &rounds);
     alpi_light_rounds_clear(&rounds);
-    (void)alpi_tiles_split(light->job->context, false);
+    (void)alpi_tiles_set_kind(light->job->context, ALPI_TILES_WHOLE);
     ALP_TRY(result);
     const alpi_surface_light known = alpi_patches_light(&solution->radiosity->patches);
     return bake_probes(light->job, &known);
@@ -123,11 +123,12 @@ static alp_result run(alpi_light_bake *light)
     const alp_light_options *o = &job->options.light;
     const bool direct = o->bounces == 0, paths = o->gather == ALP_GATHER_PATHS;
     job->report.light_direct = direct;
-    (void)alpi_tiles_split(job->context, direct || paths);
+    (void)alpi_tiles_set_kind(job->context,
+                              direct || paths ? ALPI_TILES_SPLIT : ALPI_TILES_WHOLE);
     ALP_TRY(direct  ? alpi_light_sample_all(light)
             : paths ? trace_paths(light)
                     : alpi_light_radiosity(light));
-    (void)alpi_tiles_split(job->context, false);
+    (void)alpi_tiles_set_kind(job->context, ALPI_TILES_WHOLE);
     if (direct || paths) {
         ALP_TRY(bake_probes(job, NULL));
     }

@@ -29,8 +29,8 @@ alp_result alpi_bake_obscurance(alpi_bake_job *job)
     const alpi_object_stage stage = {.name = "obscurance",
                                      .rays = (uint64_t)texels * job->report.ao_samples,
                                      .each = color_object};
-    (void)alpi_tiles_split(job->context, true);
+    (void)alpi_tiles_set_kind(job->context, ALPI_TILES_SPLIT);
     const alp_result result = alpi_gathering_run(job, &stage);
-    (void)alpi_tiles_split(job->context, false);
+    (void)alpi_tiles_set_kind(job->context, ALPI_TILES_WHOLE);
     return result;
 }

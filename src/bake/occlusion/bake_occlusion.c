@@ -148,11 +148,10 @@ alp_result alpi_bake_occlusion(alpi_bake_job *job)
     if ((job->options.maps & ALP_MAP_BENT) != 0) {
         ALPI_TRY_NEW(job->context, job->bent, texels);
     }
-    const alp_sampling_options *s = &job->options.sampling;
-    (void)alpi_tiles_split(job->context, s->accuracy == ALP_ADAPTIVE_OFF && !(s->error > 0.0f));
-    const alp_result gathered = alpi_gathering_run(job, &stage);
-    (void)alpi_tiles_split(job->context, false);
-    ALP_TRY(gathered);
+    ALP_TRY(alpi_gathering_run(job, &stage));
+    if (alpi_tiles_are_shards(job->context)) {
+        return ALP_OK;
+    }
     ALP_TRY(find_area_mean(&job->gathering.lattice, &job->report.ao_mean));
     alpi_bake_warn_of_darkness(job);
     warn_of_error(job);

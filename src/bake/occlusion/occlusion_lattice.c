@@ -4,6 +4,7 @@
 
 #include "bake/occlusion/occlusion_error.h"
 #include "bake/occlusion/occlusion_samples.h"
+#include "base/tiles/tiles.h"
 #include "maps/texels/validity.h"
 
 #include <math.h>
@@ -125,8 +126,12 @@ alp_result alpi_occlusion_trace_lattice(alpi_occlusion_state *state)
 alp_result alpi_occlusion_trace_all(alpi_occlusion_state *state)
 {
     uint32_t count = 0;
+    alp_context *context = state->task->setup->context;
     ALP_TRY(alpi_occlusion_mark(state, is_untraced));
-    return alpi_occlusion_trace_marked(state, &count);
+    (void)alpi_tiles_set_kind(context, ALPI_TILES_SPLIT);
+    const alp_result result = alpi_occlusion_trace_marked(state, &count);
+    (void)alpi_tiles_set_kind(context, ALPI_TILES_WHOLE);
+    return result;
 }
 
 alp_result alpi_occlusion_fill_gaps(alpi_occlusion_state *state)

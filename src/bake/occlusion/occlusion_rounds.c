@@ -8,6 +8,7 @@
 #include "bake/occlusion/occlusion_plan.h"
 #include "bake/occlusion/occlusion_samples.h"
 #include "base/memory.h"
+#include "base/tiles/tiles.h"
 #include "maps/texels/bent.h"
 
 #include <math.h>
@@ -31,7 +32,13 @@ static alp_result trace_rounds(alpi_occlusion_state *state)
         state->samples = samples;
         ALP_TRY(trace_round(state));
         state->report->samples = samples;
-        ALP_TRY(alpi_occlusion_measure_error(state));
+        if (alpi_tiles_are_shards(state->task->setup->context)) {
+            return ALP_OK; // the merge measures the error
+        }
+        (void)alpi_tiles_set_kind(state->task->setup->context, ALPI_TILES_MEASURE);
+        const alp_result measured = alpi_occlusion_measure_error(state);
+        (void)alpi_tiles_set_kind(state->task->setup->context, ALPI_TILES_WHOLE);
+        ALP_TRY(measured);
         alpi_bake_note_error(state->task->setup->context, state->report->relative);
         samples = alpi_occlusion_next_samples(state->task, state->report);
     }

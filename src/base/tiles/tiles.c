@@ -15,13 +15,21 @@ alp_ranks alp_ranks_default(void)
     return (alp_ranks){.struct_size = sizeof(alp_ranks), .count = 1};
 }
 
-bool alpi_tiles_split(alp_context *context, bool allowed)
+alpi_tile_kind alpi_tiles_set_kind(alp_context *context, alpi_tile_kind kind)
 {
     alpi_tiles *tiles = alpi_context_tiles(context);
-    const bool former = tiles->split;
-    tiles->split = allowed;
+    const alpi_tile_kind former = tiles->kind;
+    tiles->kind = kind;
     return former;
 }
+
+bool alpi_tiles_are_shards(alp_context *context)
+{
+    const alpi_tiles *tiles = alpi_context_tiles(context);
+    return tiles->shards > 0 && !tiles->merging;
+}
+
+enum { KIND_SHIFT = 28 };
 
 /// One loop while it runs.
 typedef struct tile_run {
@@ -41,7 +49,7 @@ typedef struct tile_run {
 static bool is_of_others(const tile_run *r, uint32_t tile)
 {
     const alpi_tiles *t = r->tiles;
-    return t->shards > 0 && t->split && !t->merging && tile % t->shards != t->shard;
+    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) && tile % t->shards != t->shard;
 }
 
 static alp_result run_tiles(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -203,7 +211,7 @@ static alp_result exchange(tile_run *r, alp_result result)
 {
     alpi_bytes bytes = alpi_bytes_create(r->context);
     receiving in = {.run = r,
-                    .own = {alpi_tile_shape(r->loop), result, r->tiles->next - 1}};
+                    .own = {alpi_tile_shape(r->loop), result, r->tiles->number}};
     uint32_t from = 0;
     alpi_bytes_add(&bytes, &in.own, sizeof in.own);
     alpi_bytes_add(&bytes, r->loop->marks, r->loop->mark_count);
@@ -226,7 +234,7 @@ static bool find_missing(const tile_run *r)
 {
     bool any = false;
     const alpi_tiles *t = r->tiles;
-    for (uint32_t i = 0; i < r->count && t->merging && t->split; i++) {
+    for (uint32_t i = 0; i < r->count && t->merging && t->kind == ALPI_TILES_SPLIT; i++) {
         if (r->states[i] == ALPI_TILE_OPEN) {
             t->missing[i % t->shards] = true;
             any = true;
@@ -249,7 +257,7 @@ static alp_result run(tile_run *r)
 {
     alpi_tiles *t = r->tiles;
     if (t->checkpoint != NULL) {
-        (void)alpi_checkpoint_begin_loop(t->checkpoint, r->loop, t->next - 1, r->states);
+        (void)alpi_checkpoint_begin_loop(t->checkpoint, r->loop, t->number, r->states);
     }
     alp_result result = ALP_OK;
     if (!find_missing(r)) {
@@ -274,7 +282,7 @@ alp_result alpi_tile_loop_run(alp_context *context, const alpi_tile_loop *loop)
     if (loop->count == 0) {
         return ALP_OK;
     }
-    tiles->next++;
+    tiles->number = (uint32_t)tiles->kind << KIND_SHIFT | tiles->next[tiles->kind]++;
     if (tiles->checkpoint == NULL && ranks == NULL && tiles->shards == 0) {
         return alpi_parallel_for(context, loop->count, loop->grain, loop->body, loop->user,
                                  loop->progress);

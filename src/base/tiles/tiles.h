@@ -37,24 +37,35 @@ typedef struct alpi_tile_loop {
 } alpi_tile_loop;
 
 /// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With ranks,
-/// each process runs some tiles and receives the others. A shard runs its own tiles alone, if
-/// alpi_tiles_split allows it.
+/// each process runs some tiles and receives the others. A shard runs its own tiles alone of
+/// loops that are SPLIT.
 /// @return ALP_OK; the failure of the lowest failing range; CANCELLED; IO (ranks that fail, or that
 ///         run different loops); OUT_OF_MEMORY
 alp_result alpi_tile_loop_run(alp_context *context, const alpi_tile_loop *loop);
 
-/// Says whether a shard may leave tiles of the following loops to other shards: true if no later
-/// loop chooses its items by their results. @return the former value
-bool alpi_tiles_split(alp_context *context, bool allowed);
+/// The loops of a bake, by how shards run them. Loops of a kind are numbered, and a number is the
+/// same loop in every process.
+typedef enum alpi_tile_kind {
+    ALPI_TILES_WHOLE = 0, // every shard runs all tiles
+    ALPI_TILES_SPLIT,     // each shard runs its own: no later loop chooses its items by them
+    ALPI_TILES_MEASURE,   // of the stated error; shards leave them to the merge
+    ALPI_TILE_KINDS
+} alpi_tile_kind;
+/// Sets the kind of the following loops. @return the former one
+alpi_tile_kind alpi_tiles_set_kind(alp_context *context, alpi_tile_kind kind);
+
+/// Whether this process is a shard: its arrays lack the tiles of others.
+bool alpi_tiles_are_shards(alp_context *context);
 
 struct alpi_checkpoint;
 /// The tiles of a context: who runs them, and where they are kept.
 typedef struct alpi_tiles {
     struct alpi_checkpoint *checkpoint; // or NULL
     uint32_t shard, shards;             // shard in [0, shards); shards 0: the whole
-    bool split;                         // see alpi_tiles_split
+    alpi_tile_kind kind;                // of the loops that follow
     bool merging;                       // tiles are read from shards; see missing
-    uint32_t next;                      // number of the next loop of this bake
+    uint32_t next[ALPI_TILE_KINDS];     // number of the next loop of each kind
+    uint32_t number;                    // of the loop that runs, with its kind
     uint64_t claims;                    // number of the next loop of all
     uint64_t ran, skipped, read;        // tiles of this bake so far
     bool *missing;                      // [shards] merging: shards whose tiles are not there
