@@ -123,10 +123,10 @@ TEST(occlusion_of_doubled_faces_is_that_of_single_ones)
     }
 }
 
-/// Coordinates of a national grid, and the same near the origin. Rays traced apart from the library,
-/// 4e7 from the floor and 1e7 from a side, have the means .9675 (floor), .5721 (floor below the box),
-/// .8781 (sides) and 1 (top, bottom), and .9362 over the area. The map's mean leaves out texels that
-/// the box's walls cross: at 64 texels it is .0059 more, at 256 .0020.
+/// Coordinates of a national grid, and the same near the origin. Rays traced apart from the
+/// library, 4e7 from the floor and 1e7 from a side, have the means .9675 (floor), .5721 (floor
+/// below the box), .8781 (sides) and 1 (top, bottom), and .9362 over the area. The map's mean
+/// leaves out texels that the box's walls cross: at 64 texels it is .0059 more, at 256 .0020.
 TEST(occlusion_on_a_national_grid_is_that_of_planes)
 {
     static const char *const names[] = {"far_utm.near.obj", "far_utm.obj", "dae_far_utm.dae"};
