@@ -13,10 +13,10 @@ enum { FINDINGS_TOLD = 8 };
 int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis)
 {
     *diagnosis = NULL;
-    const size_t count = s->messages.warning_count;
+    const size_t count = s->messages.warnings.count;
     alp_report_finding *heard = allocate_or_exit(NULL, count * sizeof *heard);
     for (size_t i = 0; i < count; i++) {
-        const message *m = &s->messages.warnings[i];
+        const message *m = &s->messages.warnings.items[i];
         heard[i] = (alp_report_finding){m->code, m->object, m->text};
     }
     alp_diagnosis_options options = alp_diagnosis_options_default();

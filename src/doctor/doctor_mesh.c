@@ -38,6 +38,32 @@ static alp_result look_for_triangles(alp_diagnosis *d)
                               scene->triangle_count, alpi_plural(scene->triangle_count));
 }
 
+/// One finding for all triangles without area, at the first surface that has any.
+static alp_result look_for_flat(alp_diagnosis *d)
+{
+    const alp_scene *scene = d->scene;
+    alpi_finding_facts facts = {
+        .kind = ALP_FINDING_ZERO_AREA, .place = ALP_PLACE_SURFACE, .value = NO_VALUE};
+    uint32_t surfaces = 0;
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        if (scene->surfaces[s].flat_count > 0) {
+            facts.index = surfaces++ == 0 ? s : facts.index;
+            facts.count += scene->surfaces[s].flat_count;
+        }
+    }
+    if (surfaces == 0) {
+        return ALP_OK;
+    }
+    const uint32_t first = scene->surfaces[facts.index].flat_count;
+    const uint32_t of = scene->surfaces[facts.index].triangle_count;
+    return surfaces == 1 ? alpi_diagnosis_add(d, facts, "%u of %u triangle%s no area", first, of,
+                                              alpi_one_or_many(of, " has", "s have"))
+                         : alpi_diagnosis_add(d, facts,
+                                              "%u of %u triangle%s no area (%llu in %u surfaces)",
+                                              first, of, alpi_one_or_many(of, " has", "s have"),
+                                              (unsigned long long)facts.count, surfaces);
+}
+
 // --- the same place twice ------------------------------------------------------------------------
 
 /// Corners of a triangle in one order, whatever the file's, and whether that turned it round.
@@ -358,6 +384,7 @@ static alp_result look_at_size(alp_diagnosis *d)
 alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis)
 {
     ALP_TRY(look_for_triangles(diagnosis));
+    ALP_TRY(look_for_flat(diagnosis));
     ALP_TRY(look_for_twins(diagnosis));
     ALP_TRY(look_for_reversed(diagnosis));
     ALP_TRY(look_for_inside_out(diagnosis));

@@ -456,6 +456,14 @@ static int check_json(const command_line *a)
     return output_check_json(path, a->values[OPTION_FORCE].given);
 }
 
+/// Messages that are findings too are printed as such.
+static void forget_findings(message_log *messages, const alp_diagnosis *diagnosis)
+{
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
+        messages_forget(messages, alp_diagnosis_get_finding(diagnosis, i).code);
+    }
+}
+
 int command_info(const command_line *a)
 {
     session s;
@@ -475,18 +483,18 @@ int command_info(const command_line *a)
         return code;
     }
     code = session_open(&s, a);
-    s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
+    s.messages.held = !a->values[OPTION_JSON].given; // most are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
         code = look(&s, &work, &diagnosis);
     }
+    forget_findings(&s.messages, diagnosis);
+    messages_print_held(&s.messages);
     if (code == EXIT_DONE) {
         code = tell(&s, a, &work, diagnosis);
         code = code == EXIT_DONE ? print_probes(&s, a) : code;
-    } else {
-        messages_print_held(&s.messages);
     }
     alp_diagnosis_destroy(diagnosis);
     session_close(&s);

@@ -103,6 +103,7 @@ int command_sh(const command_line *arguments)
     alp_image_destroy(p.irradiance);
     alp_image_destroy(p.display);
     alp_context_destroy(p.context);
+    messages_flush(&messages);
     messages_release(&messages);
     return code;
 }

@@ -114,6 +114,34 @@ static alp_result read_glb(alpi_gltf_document *document)
     return ALP_OK;
 }
 
+static bool starts_json(uint8_t byte)
+{
+    return byte != 0 && strchr(" \t\r\n{", byte) != NULL;
+}
+
+/// The encoding of a JSON text of two or four bytes a character, by its mark or its first
+/// character; NULL for others.
+static const char *find_wide_encoding(const uint8_t *bytes, size_t size)
+{
+    if (size < 4) {
+        return NULL;
+    }
+    if (memcmp(bytes, "\xff\xfe\0\0", 4) == 0 || memcmp(bytes, "\0\0\xfe\xff", 4) == 0) {
+        return "UTF-32";
+    }
+    if (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0) {
+        return "UTF-16";
+    }
+    if (starts_json(bytes[0]) && bytes[1] == 0) {
+        return bytes[2] != 0 ? "UTF-16LE" : "UTF-32LE";
+    }
+    if (bytes[0] == 0 && starts_json(bytes[1])) {
+        return "UTF-16BE";
+    }
+    return bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 0 && starts_json(bytes[3]) ? "UTF-32BE"
+                                                                                     : NULL;
+}
+
 /// Finds the JSON text: in a GLB's first chunk, or the whole file without a byte-order mark.
 static alp_result read_container(alpi_gltf_document *document)
 {
@@ -121,6 +149,13 @@ static alp_result read_container(alpi_gltf_document *document)
     size_t size = document->file_size;
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0) {
         return read_glb(document);
+    }
+    const char *encoding = find_wide_encoding(bytes, size);
+    if (encoding != NULL) {
+        return alpi_fail(document->context, ALP_ERROR_INVALID_DATA,
+                         "%s: is in %s, and glTF is UTF-8; save it as UTF-8, or run "
+                         "iconv -f %s -t UTF-8",
+                         document->path, encoding, encoding);
     }
     size_t first = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
     document->text = (const char *)bytes + first;

@@ -328,6 +328,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     *material = alpi_material_default();
     material->name = name;
     material->double_sided = json_is_true(json_object_get(from->object, "doubleSided"));
+    material->unlit = alpi_gltf_extension(from->object, "KHR_materials_unlit") != NULL;
     json_t *glossiness = alpi_gltf_extension(from->object, "KHR_materials_pbrSpecularGlossiness");
     ALP_TRY(glossiness != NULL ? read_specular_glossiness(from, glossiness, material)
                                : read_metallic_roughness(from, material));

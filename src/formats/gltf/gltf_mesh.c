@@ -32,6 +32,7 @@ typedef struct plan {
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
     // for one note a file each
+    uint32_t empty, first_empty[2]; // mesh and primitive
     uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
 } plan;
 
@@ -106,8 +107,8 @@ static alp_result count_sources(const plan *p, part *from, const char *owner)
 {
     const alpi_gltf_document *document = p->reader->document;
     json_t *attributes = json_object_get(from->primitive, "attributes");
-    if (!json_is_object(attributes)) {
-        return alpi_gltf_fail(document, owner, "attributes is missing");
+    if (attributes != NULL && !json_is_object(attributes)) {
+        return alpi_gltf_fail(document, owner, "attributes must be an object");
     }
     ALP_TRY(alpi_gltf_index(document, attributes, "POSITION", "accessors", owner, &from->position));
     alpi_gltf_values values = {0};
@@ -167,6 +168,20 @@ static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
     return ALP_OK;
 }
 
+/// Whether a primitive has no attribute, vertex or triangle, and is left out with a warning.
+static bool is_empty(plan *p, const part *from, const alpi_surface *surface, bool drawable)
+{
+    const bool bare = json_object_size(json_object_get(from->primitive, "attributes")) == 0;
+    const bool placed = from->position != ALPI_GLTF_NONE;
+    const bool empty = bare || (placed && from->source_count == 0) ||
+                       (placed && drawable && surface->triangle_count == 0);
+    if (empty && p->empty++ == 0) {
+        p->first_empty[0] = surface->mesh;
+        p->first_empty[1] = surface->primitive;
+    }
+    return empty;
+}
+
 static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surface, size_t placement)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
@@ -181,6 +196,9 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     bool drawable;
     ALP_TRY(alpi_gltf_primitive_count(p->reader->document, primitive, owner, from.source_count,
                                       &surface.triangle_count, &drawable));
+    if (is_empty(p, &from, &surface, drawable)) {
+        return ALP_OK;
+    }
     ALP_TRY(find_material(p, &from, owner, &surface));
     ALP_TRY(find_attributes(p, &from, owner, &surface));
     p->not_triangles += !drawable;
@@ -528,10 +546,22 @@ static alp_result move_to_origin(plan *p)
 
 // --- all together -------------------------------------------------------------------------------
 
+static void warn_of_empty(const plan *p)
+{
+    if (p->empty > 0) {
+        char owner[ALPI_GLTF_OWNER_SIZE];
+        snprintf(owner, sizeof owner, "mesh %u, primitive %u", p->first_empty[0],
+                 p->first_empty[1]);
+        alpi_warn(p->reader->context, "empty-geometry", owner,
+                  "primitives without a triangle are left out, this one first: %u", p->empty);
+    }
+}
+
 static void tell_oddities(const plan *p)
 {
     alp_context *context = p->reader->context;
     const char *path = p->reader->document->path;
+    warn_of_empty(p);
     if (p->not_triangles > 0) {
         alpi_note(context, "not-triangles", path, "primitives of points or lines left out: %u",
                   p->not_triangles);
@@ -546,14 +576,13 @@ static void tell_oddities(const plan *p)
                   p->without_material);
     }
     if (p->hidden > 0) {
-        alpi_note(
-            context, "hidden", path,
-            "%u nodes with meshes are hidden (KHR_node_visibility): they neither cast shadows "
-            "nor get a map, and stay in the file",
-            p->hidden);
+        alpi_note(context, "hidden", path,
+                  "hidden nodes with meshes (KHR_node_visibility), which neither cast shadows nor "
+                  "get a map, and stay in the file: %u",
+                  p->hidden);
     }
     if (p->skinned > 0) {
-        alpi_note(context, "skin", path, "%u skinned nodes are read in the pose of their joints",
+        alpi_note(context, "skin", path, "skinned nodes, read in the pose of their joints: %u",
                   p->skinned);
     }
     if (p->morphed > 0) {
@@ -562,7 +591,8 @@ static void tell_oddities(const plan *p)
     }
     if (p->instanced > 0) {
         alpi_note(context, "instancing", path,
-                  "%u nodes have instances of their mesh (EXT_mesh_gpu_instancing), %zu in all",
+                  "nodes with instances of their mesh (EXT_mesh_gpu_instancing): %u, with %zu in "
+                  "all",
                   p->instanced, p->placement_count);
     }
 }

@@ -25,6 +25,7 @@ typedef struct alpi_gltf_reader {
     const alp_scene *base;
     struct alpi_gltf_moment *moments; // [moment_count] of all nodes
     size_t moment_count;
+    uint32_t unread_channels; // of that animation, which move something else than a node
 } alpi_gltf_reader;
 
 /// gltf_nodes.c: checks that the nodes are trees and fills world and order.

@@ -490,7 +490,7 @@ TEST(the_manual_says_the_same)
         }
         assert_ptr_equal(alpi_finding_words_by_code(w->code), w);
     }
-    assert_int_equal(known, 44); // of the header
+    assert_int_equal(known, 45); // of the header
     test_free(text);
     free(bytes);
 }
