@@ -5,7 +5,6 @@
 
 #include "options/options.h"
 
-#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,6 +33,11 @@ void print_clean(FILE *stream, const char *text)
     }
 }
 
+const char *plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 int failure(const char *text)
 {
     fputs("alpenglow: ", stderr);
@@ -50,35 +54,6 @@ static char *copy_text(const char *text)
 
 // --- kinds ---------------------------------------------------------------------------------------
 
-/// Steps over a number or a quoted text. @return whether there was one
-static bool skip_value(const char **at)
-{
-    const char *text = *at, *end = NULL;
-    if (text[0] == '"') {
-        end = strchr(text + 1, '"');
-        *at = end != NULL ? end + 1 : text;
-        return end != NULL;
-    }
-    char *behind = NULL;
-    if (isdigit((unsigned char)text[text[0] == '-'])) {
-        strtod(text, &behind);
-        *at = behind;
-    }
-    return behind != NULL;
-}
-
-/// Whether two texts differ in numbers and quoted texts alone.
-static bool are_alike(const char *a, const char *b)
-{
-    for (;; a++, b++) {
-        while (skip_value(&a) && skip_value(&b)) {
-        }
-        if (*a != *b || *a == '\0') {
-            return *a == *b;
-        }
-    }
-}
-
 /// The kind of a message that is about to be added. Kinds of one code are limited: others of that
 /// code share the last one.
 static message_kind *find_kind(message_list *list, const alp_log_message *logged)
@@ -89,7 +64,7 @@ static message_kind *find_kind(message_list *list, const alp_log_message *logged
         message_kind *kind = &list->kinds[i];
         const message *first = &list->items[kind->first];
         if (strcmp(first->code, logged->code) == 0) {
-            if (kind->is_rest || are_alike(first->text, logged->text)) {
+            if (kind->is_rest || texts_are_alike(first->text, logged->text)) {
                 return kind;
             }
             of_code++;
@@ -97,61 +72,23 @@ static message_kind *find_kind(message_list *list, const alp_log_message *logged
     }
     if (list->kind_count == list->kind_capacity) {
         list->kind_capacity = list->kind_capacity == 0 ? 16 : list->kind_capacity * 2;
-        list->kinds =
-            allocate_or_exit(list->kinds, list->kind_capacity * sizeof *list->kinds);
+        list->kinds = allocate_or_exit(list->kinds, list->kind_capacity * sizeof *list->kinds);
     }
     message_kind *kind = &list->kinds[list->kind_count++];
     *kind = (message_kind){.first = list->count, .is_rest = of_code == CODE_LIMIT};
     return kind;
 }
 
-static bool is_named(const message_list *list, const message_kind *kind, const char *object)
-{
-    for (size_t i = 0; i < kind->name_count; i++) {
-        if (strcmp(list->items[kind->names[i]].object, object) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// Lets the last message of a list wait to be printed.
 static void enqueue(const message_list *list, message_kind *kind)
 {
-    enum { NAME_LIMIT = sizeof kind->names / sizeof *kind->names };
-    const size_t last = list->count - 1;
-    if (kind->waiting++ == 0) {
-        kind->text = last;
-        kind->varied = false;
-        kind->name_count = kind->named = 0;
+    if (kind->waiting.count == 0) {
+        kind->text = list->count - 1;
     }
-    const message *added = &list->items[last];
-    kind->varied |= strcmp(list->items[kind->text].text, added->text) != 0;
-    bool named = is_named(list, kind, added->object);
-    if (!named && kind->name_count < NAME_LIMIT) {
-        kind->names[kind->name_count++] = last;
-        named = true;
-    }
-    kind->named += named;
+    alike_add(&kind->waiting, list->items[list->count - 1].object);
 }
 
 // --- printing ------------------------------------------------------------------------------------
-
-/// "light 0, light 1, light 2 and 9 more (12 in all)".
-static void print_names(const message_list *list, const message_kind *kind)
-{
-    for (size_t i = 0; i < kind->name_count; i++) {
-        const char *object = list->items[kind->names[i]].object;
-        fputs(i > 0 ? ", " : "", stderr);
-        print_clean(stderr, object[0] != '\0' ? object : "the scene");
-    }
-    if (kind->waiting > kind->named) {
-        fprintf(stderr, " and %zu more", kind->waiting - kind->named);
-    }
-    if (kind->waiting > kind->name_count) {
-        fprintf(stderr, " (%zu in all)", kind->waiting);
-    }
-}
 
 /// Prints the messages of a kind that wait.
 static void print_kind(const message_log *m, const message_list *list, message_kind *kind)
@@ -162,25 +99,22 @@ static void print_kind(const message_log *m, const message_list *list, message_k
     }
     fputs(list == &m->warnings ? "warning: " : "note: ", stderr);
     if (kind->is_rest) {
-        fprintf(stderr, "and %zu more of other kinds [", kind->waiting);
+        fprintf(stderr, "and %zu more of other kinds [", kind->waiting.count);
         print_clean(stderr, first->code);
         fputs("]\n", stderr);
     } else {
-        if (kind->waiting > 1 || first->object[0] != '\0') {
-            print_names(list, kind);
-            fputs(kind->varied ? ", the first: " : ": ", stderr);
-        }
+        alike_print(stderr, &kind->waiting);
         print_clean(stderr, first->text);
         fputc('\n', stderr);
     }
     kind->printed = true;
-    kind->waiting = 0;
+    kind->waiting = (alike_list){0};
 }
 
 static void print_waiting(const message_log *m, message_list *list)
 {
     for (size_t i = 0; i < list->kind_count; i++) {
-        if (list->kinds[i].waiting > 0) {
+        if (list->kinds[i].waiting.count > 0) {
             print_kind(m, list, &list->kinds[i]);
         }
     }
@@ -194,8 +128,8 @@ static void add(message_list *list, const alp_log_message *logged)
         list->capacity = list->capacity == 0 ? 16 : list->capacity * 2;
         list->items = allocate_or_exit(list->items, list->capacity * sizeof *list->items);
     }
-    list->items[list->count++] = (message){copy_text(logged->code), copy_text(logged->object),
-                                           copy_text(logged->text)};
+    list->items[list->count++] =
+        (message){copy_text(logged->code), copy_text(logged->object), copy_text(logged->text)};
 }
 
 /// Whether the last message was the same: pictures of one place have the same faults.
@@ -254,7 +188,7 @@ void messages_forget(message_log *m, const char *code)
         for (size_t i = 0; i < lists[k]->kind_count; i++) {
             message_kind *kind = &lists[k]->kinds[i];
             if (strcmp(lists[k]->items[kind->first].code, code) == 0) {
-                kind->waiting = 0;
+                kind->waiting = (alike_list){0};
             }
         }
     }

@@ -4,6 +4,7 @@
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
+#include "alike.h"
 #include "progress.h"
 
 #include <alpenglow/context.h>
@@ -14,17 +15,13 @@ typedef struct message {
     char *code, *object, *text;
 } message;
 
-/// Messages of one code whose texts differ in values alone. They are printed in one line.
+/// Messages of one code whose texts are alike, printed in one line.
 typedef struct message_kind {
-    size_t first;        // the message whose text the others are compared with
-    bool is_rest;        // the other kinds of a code that has too many
-    bool printed;        // a message of it was
-    size_t waiting;      // messages to be printed
-    size_t text;         // the first of them
-    bool varied;         // their texts differ
-    size_t names[3];     // messages: the first three objects of those that wait
-    size_t name_count;   // of them
-    size_t named;        // messages of these objects
+    size_t first;       // the message whose text the others are compared with
+    bool is_rest;       // the other kinds of a code that has too many
+    bool printed;       // a message of it was
+    alike_list waiting; // to be printed
+    size_t text;        // the first message of those
 } message_kind;
 
 typedef struct message_list {
@@ -54,6 +51,9 @@ void messages_release(message_log *messages);
 
 /// Prints text from files without control characters, which could steer a terminal.
 void print_clean(FILE *stream, const char *text);
+
+/// "s" unless there is one.
+const char *plural(uint64_t count);
 
 /// Prints "alpenglow: text". @return EXIT_FAILED
 int failure(const char *text);

@@ -56,12 +56,13 @@ static alp_result look_for_flat(alp_diagnosis *d)
     }
     const uint32_t first = scene->surfaces[facts.index].flat_count;
     const uint32_t of = scene->surfaces[facts.index].triangle_count;
-    return surfaces == 1 ? alpi_diagnosis_add(d, facts, "%u of %u triangle%s no area", first, of,
-                                              alpi_one_or_many(of, " has", "s have"))
-                         : alpi_diagnosis_add(d, facts,
-                                              "%u of %u triangle%s no area (%llu in %u surfaces)",
-                                              first, of, alpi_one_or_many(of, " has", "s have"),
-                                              (unsigned long long)facts.count, surfaces);
+    return surfaces == 1
+               ? alpi_diagnosis_add(d, facts, "%u of %u triangle%s %s no area", first, of,
+                                    alpi_plural(of), alpi_one_or_many(first, "has", "have"))
+               : alpi_diagnosis_add(d, facts,
+                                    "%u of %u triangle%s %s no area (%llu in %u surfaces)", first,
+                                    of, alpi_plural(of), alpi_one_or_many(first, "has", "have"),
+                                    (unsigned long long)facts.count, surfaces);
 }
 
 // --- the same place twice ------------------------------------------------------------------------
@@ -197,9 +198,10 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.kind = ALP_FINDING_DUPLICATES;
             facts.count = w->same[s];
             facts.value = (double)w->same[s] / surface->triangle_count;
-            ALP_TRY(alpi_diagnosis_add(d, facts, "%u of %u triangle%s exactly on others, of %s",
+            ALP_TRY(alpi_diagnosis_add(d, facts, "%u of %u triangle%s %s exactly on others, of %s",
                                        w->same[s], surface->triangle_count,
-                                       surface->triangle_count == 1 ? " lies" : "s lie", with));
+                                       alpi_plural(surface->triangle_count),
+                                       alpi_one_or_many(w->same[s], "lies", "lie"), with));
             alpi_diagnosis_mark_triangle(d, w->first[0][s]);
         }
         if (w->opposite[s] > 0) {
@@ -207,8 +209,9 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.count = w->opposite[s];
             facts.value = (double)w->opposite[s] / surface->triangle_count;
             ALP_TRY(alpi_diagnosis_add(
-                d, facts, "%u of %u triangle%s back to back with others, of %s", w->opposite[s],
-                surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
+                d, facts, "%u of %u triangle%s %s back to back with others, of %s", w->opposite[s],
+                surface->triangle_count, alpi_plural(surface->triangle_count),
+                alpi_one_or_many(w->opposite[s], "lies", "lie"), with));
             alpi_diagnosis_mark_triangle(d, w->first[1][s]);
         }
     }
@@ -272,9 +275,11 @@ static alp_result look_for_reversed(alp_diagnosis *d)
             const alpi_finding_facts facts = {ALP_FINDING_REVERSED_NORMALS, ALP_PLACE_SURFACE, s,
                                               count, share};
             ALP_TRY(alpi_diagnosis_add(d, facts,
-                                       "the normals of %u of %u triangles, %.3g %% of the area, "
-                                       "point to their backs",
-                                       count, surface->triangle_count, 100.0 * share));
+                                       "the normals of %u of %u triangle%s, %.3g %% of the area, "
+                                       "point to %s",
+                                       count, surface->triangle_count,
+                                       alpi_plural(surface->triangle_count), 100.0 * share,
+                                       alpi_one_or_many(count, "its back", "their backs")));
             alpi_diagnosis_mark_triangle(d, largest);
         }
     }
@@ -314,9 +319,10 @@ static alp_result look_for_inside_out(alp_diagnosis *d)
             const alpi_finding_facts facts = {ALP_FINDING_INSIDE_OUT, ALP_PLACE_SURFACE, s, count,
                                               share};
             ALP_TRY(alpi_diagnosis_add(d, facts,
-                                       "%u of %u triangles, %.3g %% of the area, belong to "
+                                       "%u of %u triangles, %.3g %% of the area, %s to "
                                        "double-sided solids that are wound inwards",
-                                       count, surface->triangle_count, 100.0 * share));
+                                       count, surface->triangle_count, 100.0 * share,
+                                       alpi_one_or_many(count, "belongs", "belong")));
             alpi_diagnosis_mark_triangle(d, largest);
         }
     }

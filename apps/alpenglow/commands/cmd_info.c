@@ -130,7 +130,7 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
     }
     if (count > ROW_LIMIT) {
         printf("%10s  %u more surface%s; --json lists all\n", "and", count - ROW_LIMIT,
-               count - ROW_LIMIT == 1 ? "" : "s");
+               plural(count - ROW_LIMIT));
     }
 }
 
@@ -198,7 +198,7 @@ static void print_rest(uint32_t count, const char *what)
 {
     if (count > ROW_LIMIT) {
         const uint32_t rest = count - ROW_LIMIT;
-        printf("light      and %u more %s%s; --json lists all\n", rest, what, rest == 1 ? "" : "s");
+        printf("light      and %u more %s%s; --json lists all\n", rest, what, plural(rest));
     }
 }
 
@@ -230,7 +230,7 @@ static void print_animations(const alp_scene *scene, uint32_t count)
         const alp_animation_info a = alp_scene_get_animation(scene, i);
         printf("%sanimation  %u ", i == 0 ? "\n" : "", i);
         print_clean(stdout, a.name[0] != '\0' ? a.name : "(no name)");
-        printf(", %g s, %u channel%s\n", a.seconds, a.channels, a.channels == 1 ? "" : "s");
+        printf(", %g s, %u channel%s\n", a.seconds, a.channels, plural(a.channels));
     }
     if (count > ROW_LIMIT) {
         printf("animation  and %u more; --json lists all\n", count - ROW_LIMIT);

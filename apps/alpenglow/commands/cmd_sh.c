@@ -42,7 +42,7 @@ static int check_environment(const char *path, const alp_image *image)
                  path);
     } else if (info.channels < 3) {
         snprintf(text, sizeof text, "%.700s: has %u channel%s; an environment needs R, G and B",
-                 path, info.channels, info.channels == 1 ? "" : "s");
+                 path, info.channels, plural(info.channels));
     } else if (info.width != 2 * info.height) {
         snprintf(text, sizeof text,
                  "%.700s: has %u x %u pixels; an environment is equirectangular, twice as wide as "

@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_mend.h"
@@ -79,7 +80,8 @@ static alp_result check_glb_header(const alpi_gltf_document *document, size_t *e
     }
     if (*end < document->file_size) {
         alpi_warn(document->context, "trailing-bytes", document->path,
-                  "%zu bytes after the end of the GLB are ignored", document->file_size - *end);
+                  "bytes after the end of the GLB, which are ignored: %zu",
+                  document->file_size - *end);
     }
     return ALP_OK;
 }
@@ -139,7 +141,7 @@ static const char *find_wide_encoding(const uint8_t *bytes, size_t size)
         return "UTF-16BE";
     }
     return bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 0 && starts_json(bytes[3]) ? "UTF-32BE"
-                                                                                     : NULL;
+                                                                                    : NULL;
 }
 
 /// Finds the JSON text: in a GLB's first chunk, or the whole file without a byte-order mark.
@@ -404,8 +406,8 @@ static alp_result read_buffer(alpi_gltf_document *document, size_t index)
                               index == 0 ? " and the file has no BIN chunk" : "");
     }
     if (buffer->size < length) {
-        return alpi_gltf_fail(document, owner, "byteLength is %zu, but there are only %zu bytes",
-                              length, buffer->size);
+        return alpi_gltf_fail(document, owner, "byteLength is %zu, but there are only %zu byte%s",
+                              length, buffer->size, alpi_plural(buffer->size));
     }
     return ALP_OK;
 }
@@ -449,6 +451,8 @@ static alp_result fill_document(alpi_gltf_document *document, const char *path)
     ALP_TRY(check_version(document));
     ALP_TRY(check_extensions(document));
     ALP_TRY(check_arrays(document));
+    ALPI_TRY_NEW(document->context, document->told_textures, alpi_gltf_count(document, "textures"));
+    ALPI_TRY_NEW(document->context, document->told_images, alpi_gltf_count(document, "images"));
     ALP_TRY(mend_references(document));
     ALP_TRY(read_buffers(document));
     ALP_TRY(alpi_gltf_decode_views(document));
@@ -506,6 +510,8 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
         alpi_release(context, document->decoded[i].values.bytes);
     }
     json_decref(document->root);
+    alpi_release(context, document->told_textures);
+    alpi_release(context, document->told_images);
     alpi_release(context, document->decoded_views);
     alpi_release(context, document->decoded);
     alpi_release(context, document->buffers);

@@ -4,6 +4,7 @@
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_pose.h"
 #include "formats/gltf/gltf_tree.h"
@@ -51,12 +52,13 @@ static alp_result find_attribute(const plan *p, const part *from, const char *na
     alpi_gltf_values values;
     ALP_TRY(alpi_gltf_accessor_check(document, *accessor, &values));
     if (values.components < components[0] || values.components > components[1]) {
-        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u components", name,
-                              *accessor, values.components);
+        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u component%s", name,
+                              *accessor, values.components, alpi_plural(values.components));
     }
     if (values.count != from->source_count) {
-        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u elements, POSITION has %u",
-                              name, *accessor, values.count, from->source_count);
+        return alpi_gltf_fail(
+            document, owner, "%s (accessor %zu) has %u element%s, POSITION has %u", name, *accessor,
+            values.count, alpi_plural(values.count), from->source_count);
     }
     return ALP_OK;
 }
@@ -353,7 +355,10 @@ static alp_result fill_triangles(const plan *p, const part *from, const alpi_sur
     alpi_release(p->reader->context, corners);
     if (leftover > 0) {
         alpi_warn(p->reader->context, "leftover-indices", owner,
-                  "%u indices at the end make no triangle and are ignored", leftover);
+                  "%u %s at the end %s no triangle and %s ignored", leftover,
+                  alpi_one_or_many(leftover, "index", "indices"),
+                  alpi_one_or_many(leftover, "makes", "make"),
+                  alpi_one_or_many(leftover, "is", "are"));
     }
     return ALP_OK;
 }
@@ -480,7 +485,7 @@ static alp_result fill_uvs(const plan *p, const part *from, const alpi_surface *
         char name[ALPI_GLTF_OWNER_SIZE];
         alpi_gltf_slot_name(set, name, sizeof name);
         alpi_warn(p->reader->context, "bad-uvs", surface->name,
-                  "%u values of %s are not finite: 0 is used", bad, name);
+                  "values of %s that are not finite, and count as 0: %u", name, bad);
     }
     return ALP_OK;
 }

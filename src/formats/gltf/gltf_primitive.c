@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The triangles of a primitive: lists, strips and fans, indexed or not (glTF 2.0, section 3.7.2).
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_tree.h"
 
@@ -87,7 +88,7 @@ static alp_result fill_triangles(const alpi_gltf_document *document, const char 
                 values.bytes == NULL ? place[k] : alpi_gltf_values_index(&values, place[k]);
             if (vertex >= vertex_count) {
                 result =
-                    alpi_gltf_fail(document, owner, "index %u is %u, but there are %u vertices",
+                    alpi_gltf_fail(document, owner, "index %u is %u, and the number of vertices %u",
                                    place[k], vertex, vertex_count);
             }
             triangles[i][k] = vertex;

@@ -95,7 +95,7 @@ TEST_WITH_CONTEXT(faults_of_data_stay_refused, 1)
 {
     static const char *const cases[][2] = {
         {"'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{'POSITION':3}}]}]",
-         "POSITION is 3, but there are only 1 accessors"},
+         "POSITION is 3, but there is only 1 accessor"},
         {"'nodes':[{'mesh':0}],'scene':2,'scenes':[{'nodes':[0]}]," MESH, "scene is 2"},
         {"'nodes':[{'mesh':'x'}]," MESH, "mesh must be a non-negative integer"},
         {"'nodes':[{'mesh':0,'children':[0]}]," MESH, "is its own ancestor"},
