@@ -125,7 +125,7 @@ static bool starts_json(uint8_t byte)
 /// character; NULL for others.
 static const char *find_wide_encoding(const uint8_t *bytes, size_t size)
 {
-    if (size < 4) {
+    if (size < 8) {
         return NULL;
     }
     if (memcmp(bytes, "\xff\xfe\0\0", 4) == 0 || memcmp(bytes, "\0\0\xfe\xff", 4) == 0) {
@@ -140,8 +140,8 @@ static const char *find_wide_encoding(const uint8_t *bytes, size_t size)
     if (bytes[0] == 0 && starts_json(bytes[1])) {
         return "UTF-16BE";
     }
-    return bytes[0] == 0 && bytes[1] == 0 && bytes[2] == 0 && starts_json(bytes[3]) ? "UTF-32BE"
-                                                                                    : NULL;
+    const bool big = memcmp(bytes, "\0\0\0", 3) == 0 && memcmp(bytes + 4, "\0\0\0", 3) == 0;
+    return big && starts_json(bytes[3]) ? "UTF-32BE" : NULL;
 }
 
 /// Finds the JSON text: in a GLB's first chunk, or the whole file without a byte-order mark.

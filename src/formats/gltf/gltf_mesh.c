@@ -201,11 +201,14 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     if (is_empty(p, &from, &surface, drawable)) {
         return ALP_OK;
     }
+    p->not_triangles += !drawable;
+    if (from.position == ALPI_GLTF_NONE) {
+        p->without_position += drawable;
+        return ALP_OK;
+    }
     ALP_TRY(find_material(p, &from, owner, &surface));
     ALP_TRY(find_attributes(p, &from, owner, &surface));
-    p->not_triangles += !drawable;
-    p->without_position += drawable && from.position == ALPI_GLTF_NONE;
-    if (!drawable || from.position == ALPI_GLTF_NONE) {
+    if (!drawable) {
         return ALP_OK;
     }
     p->morphed += json_array_size(json_object_get(primitive, "targets")) > 0;
