@@ -32,9 +32,7 @@ typedef struct plan {
     size_t placement_count, placement_capacity;
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
-    // for one note a file each
-    uint32_t empty, first_empty[2]; // mesh and primitive
-    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
+    alpi_gltf_oddities odd;
 } plan;
 
 // --- sizes --------------------------------------------------------------------------------------
@@ -144,7 +142,7 @@ static alp_result find_material(plan *p, const part *from, const char *owner, al
         surface->material = (uint32_t)material;
         p->reader->material_used[material] = true;
     }
-    p->without_material += material == ALPI_GLTF_NONE;
+    p->odd.without_material += material == ALPI_GLTF_NONE;
     return ALP_OK;
 }
 
@@ -177,9 +175,9 @@ static bool is_empty(plan *p, const part *from, const alpi_surface *surface, boo
     const bool placed = from->position != ALPI_GLTF_NONE;
     const bool empty = bare || (placed && from->source_count == 0) ||
                        (placed && drawable && surface->triangle_count == 0);
-    if (empty && p->empty++ == 0) {
-        p->first_empty[0] = surface->mesh;
-        p->first_empty[1] = surface->primitive;
+    if (empty && p->odd.empty++ == 0) {
+        p->odd.first_empty[0] = surface->mesh;
+        p->odd.first_empty[1] = surface->primitive;
     }
     return empty;
 }
@@ -201,9 +199,9 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     if (is_empty(p, &from, &surface, drawable)) {
         return ALP_OK;
     }
-    p->not_triangles += !drawable;
+    p->odd.not_triangles += !drawable;
     if (from.position == ALPI_GLTF_NONE) {
-        p->without_position += drawable;
+        p->odd.without_position += drawable;
         return ALP_OK;
     }
     ALP_TRY(find_material(p, &from, owner, &surface));
@@ -211,7 +209,7 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     if (!drawable) {
         return ALP_OK;
     }
-    p->morphed += json_array_size(json_object_get(primitive, "targets")) > 0;
+    p->odd.morphed += json_array_size(json_object_get(primitive, "targets")) > 0;
     surface.normals_generated = from.normal == ALPI_GLTF_NONE;
     uint64_t vertices =
         surface.normals_generated ? 3 * (uint64_t)surface.triangle_count : from.source_count;
@@ -238,7 +236,7 @@ static alp_result plan_mesh(plan *p, json_t *primitives, alpi_surface surface, s
 static alp_result plan_instances(plan *p, json_t *primitives, alpi_surface surface,
                                  const alpi_gltf_instance *instances, uint32_t count)
 {
-    p->instanced++;
+    p->odd.instanced++;
     for (uint32_t i = 0; i < count; i++) {
         void *items = p->placements;
         alp_result result = alpi_grow(p->reader->context, &items, &p->placement_capacity,
@@ -278,7 +276,7 @@ static alp_result plan_node(plan *p, uint32_t node)
     size_t mesh;
     ALP_TRY(alpi_gltf_index(document, object, "mesh", "meshes", owner, &mesh));
     if (mesh == ALPI_GLTF_NONE || p->reader->hidden[node]) {
-        p->hidden += mesh != ALPI_GLTF_NONE;
+        p->odd.hidden += mesh != ALPI_GLTF_NONE;
         return ALP_OK;
     }
     json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
@@ -290,7 +288,7 @@ static alp_result plan_node(plan *p, uint32_t node)
     surface.mirrored = mat4_determinant3(&p->reader->world[node]) < 0.0;
     mat4_axes(&p->reader->world[node], surface.axes);
     if (json_object_get(object, "skin") != NULL) {
-        p->skinned++;
+        p->odd.skinned++;
         memset(surface.axes, 0, sizeof surface.axes); // joints place it, not its node
         ALP_TRY(find_mirrored(p, &surface));
     }
@@ -554,57 +552,6 @@ static alp_result move_to_origin(plan *p)
 
 // --- all together -------------------------------------------------------------------------------
 
-static void warn_of_empty(const plan *p)
-{
-    if (p->empty > 0) {
-        char owner[ALPI_GLTF_OWNER_SIZE];
-        snprintf(owner, sizeof owner, "mesh %u, primitive %u", p->first_empty[0],
-                 p->first_empty[1]);
-        alpi_warn(p->reader->context, "empty-geometry", owner,
-                  "primitives without a triangle are left out, this one first: %u", p->empty);
-    }
-}
-
-static void tell_oddities(const plan *p)
-{
-    alp_context *context = p->reader->context;
-    const char *path = p->reader->document->path;
-    warn_of_empty(p);
-    if (p->not_triangles > 0) {
-        alpi_note(context, "not-triangles", path, "primitives of points or lines left out: %u",
-                  p->not_triangles);
-    }
-    if (p->without_position > 0) {
-        alpi_note(context, "no-positions", path, "primitives without POSITION left out: %u",
-                  p->without_position);
-    }
-    if (p->without_material > 0) {
-        alpi_note(context, "no-material", path,
-                  "primitives without a material, read as a grey of albedo 0.5: %u",
-                  p->without_material);
-    }
-    if (p->hidden > 0) {
-        alpi_note(context, "hidden", path,
-                  "hidden nodes with meshes (KHR_node_visibility), which neither cast shadows nor "
-                  "get a map, and stay in the file: %u",
-                  p->hidden);
-    }
-    if (p->skinned > 0) {
-        alpi_note(context, "skin", path, "skinned nodes, read in the pose of their joints: %u",
-                  p->skinned);
-    }
-    if (p->morphed > 0) {
-        alpi_note(context, "morph", path,
-                  "primitives with morph targets, read with their default weights: %u", p->morphed);
-    }
-    if (p->instanced > 0) {
-        alpi_note(context, "instancing", path,
-                  "nodes with instances of their mesh (EXT_mesh_gpu_instancing): %u, with %zu in "
-                  "all",
-                  p->instanced, p->placement_count);
-    }
-}
-
 static alp_result read_surfaces(plan *p)
 {
     alp_scene *scene = p->reader->scene;
@@ -617,7 +564,8 @@ static alp_result read_surfaces(plan *p)
         alpi_gltf_check_sets(p->reader, &scene->surfaces[s], p->parts[s].uvs);
     }
     ALP_TRY(move_to_origin(p));
-    tell_oddities(p);
+    p->odd.placement_count = p->placement_count;
+    alpi_gltf_tell_oddities(p->reader, &p->odd);
     return ALP_OK;
 }
 

@@ -87,9 +87,10 @@ static alp_result fill_triangles(const alpi_gltf_document *document, const char 
             uint32_t vertex =
                 values.bytes == NULL ? place[k] : alpi_gltf_values_index(&values, place[k]);
             if (vertex >= vertex_count) {
-                result =
-                    alpi_gltf_fail(document, owner, "index %u is %u, and the number of vertices %u",
-                                   place[k], vertex, vertex_count);
+                result = alpi_gltf_fail(document, owner, "index %u is %u, but there %s %u %s",
+                                        place[k], vertex,
+                                        alpi_one_or_many(vertex_count, "is", "are"), vertex_count,
+                                        alpi_one_or_many(vertex_count, "vertex", "vertices"));
             }
             triangles[i][k] = vertex;
         }
