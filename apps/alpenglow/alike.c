@@ -27,8 +27,18 @@ static bool skip_value(const char **at)
     return behind != NULL;
 }
 
+/// The text behind the file that it begins with, as "a.png: cannot open" does.
+static const char *behind_file(const char *text)
+{
+    const char *end = strstr(text, ": ");
+    const bool is_file = end != NULL && memchr(text, '.', (size_t)(end - text)) != NULL;
+    return is_file ? end : text;
+}
+
 bool texts_are_alike(const char *a, const char *b)
 {
+    a = behind_file(a);
+    b = behind_file(b);
     for (;; a++, b++) {
         while (skip_value(&a) && skip_value(&b)) {
         }
@@ -53,6 +63,14 @@ void alike_add(alike_list *list, const char *name)
     }
 }
 
+/// A name without the file that the first name begins with too.
+static const char *without_file(const char *name, const char *first)
+{
+    const char *end = strstr(first, ": ");
+    const size_t length = end != NULL ? (size_t)(end - first) + 2 : 0;
+    return strncmp(name, first, length) == 0 ? name + length : name;
+}
+
 void alike_print(FILE *stream, const alike_list *list)
 {
     const bool several = list->count > 1;
@@ -61,6 +79,7 @@ void alike_print(FILE *stream, const alike_list *list)
     }
     for (size_t i = 0; i < list->name_count; i++) {
         const char *name = list->names[i];
+        name = i > 0 ? without_file(name, list->names[0]) : name;
         fputs(i > 0 ? "; " : "", stream);
         print_clean(stream, several && name[0] == '\0' ? "the scene" : name);
     }

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/// Whether two texts differ in numbers and quoted texts alone.
+/// Whether two texts differ in numbers, in quoted texts and in the file they begin with alone.
 bool texts_are_alike(const char *a, const char *b);
 
 /// Messages that are printed in one line, and the first places that they name.

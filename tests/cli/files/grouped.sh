@@ -21,6 +21,16 @@ alpenglow info missing.gltf -q | grep '\[missing\]'
 echo "== one of each" >&2
 room "$grey" "" "" | sed 's/"material":0/"material":3/' >one.gltf
 alpenglow bake one.gltf --size 8 --ao-samples 4 --maps-dir maps -f 2>&1 >/dev/null | grep -E '^(warning|note)' >&2
+echo "== files that are not there" >&2
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nmtllib c.mtl\n' >c.obj
+for name in oak elm ash yew; do
+    printf 'newmtl %s\nmap_Kd %s.png\n' $name $name >>c.mtl
+    printf 'usemtl %s\nf 1/1 2/2 3/3\n' $name >>c.obj
+done
+alpenglow bake c.obj --size 8 --ao-samples 4 --maps-dir maps -q -f
+echo "== places of one document" >&2
+triangle_dae '<unit meter="1"/>' 1 | sed 's|</node>|<instance_camera url="#c"/>\n<instance_camera url="#d"/></node>|' >d.dae
+alpenglow bake d.dae --size 8 --ao-samples 4 --maps-dir maps -q -f
 echo "== notes"
 printf 'newmtl m0\nmap_Kd t0.png\n' >b.mtl
 printf 'mtllib b.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n' >b.obj
