@@ -10,18 +10,19 @@
 
 static void print_atlas(const alp_atlas_info *atlas)
 {
-    printf("atlas      %s, %u page%s of %u x %u, %u chart%s, %llu texels, %.1f %% used, "
+    printf("atlas      %s, %u page%s of %u x %u, %u chart%s, %llu texel%s, %.1f %% used, "
            "%.4g texels per metre\n",
-           atlas_mode_name(atlas->mode), atlas->pages, atlas->pages == 1 ? "" : "s", atlas->width,
-           atlas->height, atlas->charts, atlas->charts == 1 ? "" : "s",
-           (unsigned long long)atlas->texels, 100.0 * atlas->utilisation, atlas->texels_per_metre);
-    printf("stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangles flipped, ",
+           atlas_mode_name(atlas->mode), atlas->pages, plural(atlas->pages), atlas->width,
+           atlas->height, atlas->charts, plural(atlas->charts), (unsigned long long)atlas->texels,
+           plural(atlas->texels), 100.0 * atlas->utilisation, atlas->texels_per_metre);
+    printf("stretch    mean %.3f, worst %.3f, density spread %.3f; %u triangle%s flipped, ",
            atlas->stretch_mean, atlas->stretch_worst, atlas->density_spread,
-           atlas->flipped_triangles);
+           atlas->flipped_triangles, plural(atlas->flipped_triangles));
     if (atlas->sliver_triangles > 0) {
-        printf("%u slivers, ", atlas->sliver_triangles);
+        printf("%u sliver%s, ", atlas->sliver_triangles, plural(atlas->sliver_triangles));
     }
-    printf("%llu texels overlap\n", (unsigned long long)atlas->overlapping_texels);
+    printf("%llu texel%s\n", (unsigned long long)atlas->overlapping_texels,
+           atlas->overlapping_texels == 1 ? " overlaps" : "s overlap");
 }
 
 /// Prints names of files, with the ending of the maps' format for .exr.
@@ -63,8 +64,8 @@ static void print_maps(const alp_bake_options *o, unsigned maps, uint32_t pages)
 
 static void print_vertices(const alp_bake_options *o, const alp_bake_report *r)
 {
-    printf("vertices   %u of different position or normal, %u triangles, values in %s\n",
-           r->vertices, r->scene.usable_triangles,
+    printf("vertices   %u of different position or normal, %u triangle%s, values in %s\n",
+           r->vertices, r->scene.usable_triangles, plural(r->scene.usable_triangles),
            o->vertex_attribute == ALP_VERTEX_COLOR ? "COLOR_0" : "_OCCLUSION");
 }
 
@@ -85,7 +86,7 @@ static void print_stated_error(double relative, double p99, const char *of)
 
 static void print_occlusion(const command_line *a, const alp_bake_report *r)
 {
-    printf("occlusion  %u rays per %s, ", r->ao_samples,
+    printf("occlusion  %u ray%s per %s, ", r->ao_samples, plural(r->ao_samples),
            r->atlas.mode == ALP_ATLAS_VERTEX ? "vertex" : "texel");
     if (isinf(r->ao_distance)) {
         printf("no distance limit");
@@ -101,8 +102,8 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
     if (r->atlas.mode == ALP_ATLAS_VERTEX) {
         return; // no texels, no stated error
     }
-    printf("sampling   %llu texels traced, %llu interpolated", (unsigned long long)r->traced,
-           (unsigned long long)r->interpolated);
+    printf("sampling   %llu texel%s traced, %llu interpolated", (unsigned long long)r->traced,
+           plural(r->traced), (unsigned long long)r->interpolated);
     if (r->dropped > 0) {
         printf(", %llu inside other objects filled", (unsigned long long)r->dropped);
     }
@@ -114,16 +115,17 @@ static void print_occlusion(const command_line *a, const alp_bake_report *r)
 
 static void print_light(const alp_bake_options *o, const alp_bake_report *r)
 {
-    printf("light      %u %s, ", r->light_samples,
-           r->light_direct                       ? "samples of each light per texel"
-           : o->light.gather == ALP_GATHER_PATHS ? "paths per texel"
-                                                 : "rays per texel");
+    printf("light      %u %s%s%s per texel, ", r->light_samples,
+           r->light_direct                       ? "sample"
+           : o->light.gather == ALP_GATHER_PATHS ? "path"
+                                                 : "ray",
+           plural(r->light_samples), r->light_direct ? " of each light" : "");
     if (r->light_direct) {
         printf("no bounce");
     } else if (o->light.bounces == ALP_BOUNCES_CONVERGE) {
         printf("all bounces");
     } else {
-        printf("%u bounce%s", o->light.bounces, o->light.bounces == 1 ? "" : "s");
+        printf("%u bounce%s", o->light.bounces, plural(o->light.bounces));
     }
     if (r->light_interpolated > 0) {
         printf("; %.0f %% of the texels gathered, the rest interpolated",
@@ -176,7 +178,7 @@ static void print_seams(const alp_bake_report *r)
         printf("seams      none\n");
         return;
     }
-    printf("seams      %.4g m along %u edges", s->length, s->count);
+    printf("seams      %.4g m along %u edge%s", s->length, s->count, plural(s->count));
     if ((r->maps & ALP_MAP_AO) != 0) {
         print_seam_error(s, "occlusion", &s->ao, r->ao_relative_error);
     }

@@ -68,7 +68,7 @@ int camera_find(const session *s, const command_line *a, alp_render_options *o)
         snprintf(text, sizeof text,
                  "--camera %u: the scene has %u camera%s, counted from 0; auto is a view of "
                  "everything",
-                 o->camera_index, cameras, cameras == 1 ? "" : "s");
+                 o->camera_index, cameras, plural(cameras));
         return failure(text);
     }
     return EXIT_DONE;

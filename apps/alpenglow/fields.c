@@ -216,7 +216,8 @@ void probes_print(const alp_probes_info *i)
            i->states[ALP_PROBE_VALID], i->states[ALP_PROBE_MOVED], i->states[ALP_PROBE_FILLED],
            i->states[ALP_PROBE_INVALID]);
     printf("mean irradiance %.4g W/m2\n", (double)i->mean);
-    printf("noise      %.2g %% of the mean, %u rays a probe\n", 100.0 * (double)i->error, i->rays);
+    printf("noise      %.2g %% of the mean, %u ray%s a probe\n", 100.0 * (double)i->error, i->rays,
+           plural(i->rays));
     if (!i->is_list && i->mean > 0.0f && i->interpolation > 0.0f) {
         printf("between    %.2g %% of the mean, by points apart\n",
                100.0 * (double)i->interpolation / (double)i->mean);

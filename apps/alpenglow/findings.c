@@ -2,6 +2,7 @@
 // The doctor's findings, as text and as JSON.
 #include "findings.h"
 
+#include "alike.h"
 #include "output.h"
 
 #include <stdlib.h>
@@ -13,10 +14,10 @@ enum { FINDINGS_TOLD = 8 };
 int findings_look(session *s, const alp_bake_report *baked, alp_diagnosis **diagnosis)
 {
     *diagnosis = NULL;
-    const size_t count = s->messages.warning_count;
+    const size_t count = s->messages.warnings.count;
     alp_report_finding *heard = allocate_or_exit(NULL, count * sizeof *heard);
     for (size_t i = 0; i < count; i++) {
-        const message *m = &s->messages.warnings[i];
+        const message *m = &s->messages.warnings.items[i];
         heard[i] = (alp_report_finding){m->code, m->object, m->text};
     }
     alp_diagnosis_options options = alp_diagnosis_options_default();
@@ -68,24 +69,59 @@ static void print_tally(const alp_diagnosis *diagnosis)
     for (int s = 0; s < 3; s++) {
         if (tally[s] > 0) {
             printf("%s%u %s%s", comma, tally[s], alp_severity_name((alp_severity)s),
-                   tally[s] == 1 ? "" : "s");
+                   plural(tally[s]));
             comma = ", ";
         }
     }
     puts(count == 0 ? "none" : "");
 }
 
-static void print_finding(const alp_finding *f)
+/// Messages of the readers that are alike have one line; findings of the doctor have one each.
+static bool is_like(const alp_finding *a, const alp_finding *b)
 {
-    printf("%-9s  ", alp_severity_name(f->severity));
-    if (f->place != ALP_PLACE_SCENE && f->name[0] != '\0') {
-        print_clean(stdout, f->name);
-        printf(": ");
+    return a->place == ALP_PLACE_MESSAGE && b->place == ALP_PLACE_MESSAGE &&
+           texts_are_alike(a->what, b->what);
+}
+
+/// Prints finding `first` with those before `end` that are like it.
+static void print_finding(const alp_diagnosis *diagnosis, uint32_t first, uint32_t end)
+{
+    const alp_finding f = alp_diagnosis_get_finding(diagnosis, first);
+    alike_list list = {0};
+    alike_add(&list, f.place != ALP_PLACE_SCENE ? f.name : "");
+    for (uint32_t i = first + 1; i < end; i++) {
+        const alp_finding other = alp_diagnosis_get_finding(diagnosis, i);
+        if (is_like(&f, &other)) {
+            alike_add(&list, other.name);
+        }
     }
-    print_clean(stdout, f->what);
+    printf("%-9s  ", alp_severity_name(f.severity));
+    alike_print(stdout, &list);
+    print_clean(stdout, f.what);
     printf(" [");
-    print_clean(stdout, f->code);
+    print_clean(stdout, f.code);
     printf("]\n");
+}
+
+/// Prints the findings of a kind. @return how many are left out
+static uint32_t print_kind(const alp_diagnosis *diagnosis, uint32_t first, uint32_t end)
+{
+    uint32_t told[FINDINGS_TOLD], count = 0, left_out = 0;
+    for (uint32_t i = first; i < end; i++) {
+        const alp_finding f = alp_diagnosis_get_finding(diagnosis, i);
+        bool printed = false;
+        for (uint32_t k = 0; k < count && !printed; k++) {
+            const alp_finding other = alp_diagnosis_get_finding(diagnosis, told[k]);
+            printed = is_like(&other, &f);
+        }
+        if (!printed && count < FINDINGS_TOLD) {
+            told[count++] = i;
+            print_finding(diagnosis, i, end);
+        } else {
+            left_out += !printed;
+        }
+    }
+    return left_out;
 }
 
 /// Prints effect and remedy of a kind once, after its last finding.
@@ -119,17 +155,13 @@ void findings_print(const alp_diagnosis *diagnosis)
     print_tally(diagnosis);
     for (uint32_t first = 0, end; first < count; first = end) {
         const alp_finding f = alp_diagnosis_get_finding(diagnosis, first);
-        for (end = first; end < count; end++) {
+        for (end = first + 1; end < count; end++) {
             const alp_finding next = alp_diagnosis_get_finding(diagnosis, end);
-            if (end > first && !are_alike(&f, &next)) {
+            if (!are_alike(&f, &next)) {
                 break;
             }
-            if (end - first < FINDINGS_TOLD) {
-                print_finding(&next);
-            }
         }
-        const uint32_t same = end - first;
-        print_advice(&f, same > FINDINGS_TOLD ? same - FINDINGS_TOLD : 0);
+        print_advice(&f, print_kind(diagnosis, first, end));
     }
 }
 

@@ -129,7 +129,7 @@ static int check_picture(const char *path, const alp_image *image)
                  path);
     } else if (info.channels < 3) {
         snprintf(text, sizeof text, "%.700s: has %u channel%s; a sky needs R, G and B", path,
-                 info.channels, info.channels == 1 ? "" : "s");
+                 info.channels, plural(info.channels));
     } else if (info.width != 2 * info.height) {
         snprintf(text, sizeof text,
                  "%.700s: has %u x %u pixels; a sky is equirectangular, twice as wide as high",

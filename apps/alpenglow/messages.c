@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Messages of the library: printed at once, but for warnings like earlier ones, which are printed
-// together; warnings are kept for the report.
+// Messages of the library. Those of one kind are printed in one line; warnings are kept for the
+// report.
 #include "messages.h"
 
 #include "options/options.h"
@@ -33,6 +33,11 @@ void print_clean(FILE *stream, const char *text)
     }
 }
 
+const char *plural(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
 int failure(const char *text)
 {
     fputs("alpenglow: ", stderr);
@@ -47,56 +52,90 @@ static char *copy_text(const char *text)
     return memcpy(allocate_or_exit(NULL, size), text, size);
 }
 
-/// Chooses how a new warning is printed: at once, or with an earlier one of its text. The first
-/// CODE_LIMIT warnings of each code are printed.
-static int find_like(const message_log *m, const alp_log_message *logged)
+// --- kinds ---------------------------------------------------------------------------------------
+
+/// The kind of a message that is about to be added. Kinds of one code are limited: others of that
+/// code share the last one.
+static message_kind *find_kind(message_list *list, const alp_log_message *logged)
 {
     enum { CODE_LIMIT = 8 };
-    int printed = 0;
-    for (size_t i = 0; i < m->warning_count && printed < CODE_LIMIT; i++) {
-        const message *w = &m->warnings[i];
-        if (w->like != MESSAGE_PRINTED || strcmp(w->code, logged->code) != 0) {
-            continue;
+    size_t of_code = 0;
+    for (size_t i = 0; i < list->kind_count; i++) {
+        message_kind *kind = &list->kinds[i];
+        const message *first = &list->items[kind->first];
+        if (strcmp(first->code, logged->code) == 0) {
+            if (kind->is_rest || texts_are_alike(first->text, logged->text)) {
+                return kind;
+            }
+            of_code++;
         }
-        if (strcmp(w->text, logged->text) == 0) {
-            return (int)i;
-        }
-        printed++;
     }
-    return printed < CODE_LIMIT ? MESSAGE_PRINTED : MESSAGE_COUNTED;
+    if (list->kind_count == list->kind_capacity) {
+        list->kind_capacity = list->kind_capacity == 0 ? 16 : list->kind_capacity * 2;
+        list->kinds = allocate_or_exit(list->kinds, list->kind_capacity * sizeof *list->kinds);
+    }
+    message_kind *kind = &list->kinds[list->kind_count++];
+    *kind = (message_kind){.first = list->count, .is_rest = of_code == CODE_LIMIT};
+    return kind;
 }
 
-/// @return whether it is to be printed now
-static bool keep(message_log *m, const alp_log_message *logged)
+/// Lets the last message of a list wait to be printed.
+static void enqueue(const message_list *list, message_kind *kind)
 {
-    const int like = m->held ? MESSAGE_PRINTED : find_like(m, logged);
-    if (m->warning_count == m->capacity) {
-        m->capacity = m->capacity == 0 ? 16 : m->capacity * 2;
-        m->warnings = allocate_or_exit(m->warnings, m->capacity * sizeof *m->warnings);
+    if (kind->waiting.count == 0) {
+        kind->text = list->count - 1;
     }
-    m->warnings[m->warning_count++] = (message){copy_text(logged->code), copy_text(logged->object),
-                                                copy_text(logged->text), like};
-    return like == MESSAGE_PRINTED;
+    alike_add(&kind->waiting, list->items[list->count - 1].object);
 }
 
-static void print_message(const message_log *m, bool warning, const char *object, const char *text)
+// --- printing ------------------------------------------------------------------------------------
+
+/// Prints the messages of a kind that wait.
+static void print_kind(const message_log *m, const message_list *list, message_kind *kind)
 {
+    const message *first = &list->items[kind->text];
     if (m->progress != NULL) {
         progress_clear(m->progress);
     }
-    fputs(warning ? "warning: " : "note: ", stderr);
-    if (object[0] != '\0') {
-        print_clean(stderr, object);
-        fputs(": ", stderr);
+    fputs(list == &m->warnings ? "warning: " : "note: ", stderr);
+    if (kind->is_rest) {
+        fprintf(stderr, "and %zu more of other kinds [", kind->waiting.count);
+        print_clean(stderr, first->code);
+        fputs("]\n", stderr);
+    } else {
+        alike_print(stderr, &kind->waiting);
+        print_clean(stderr, first->text);
+        fputc('\n', stderr);
     }
-    print_clean(stderr, text);
-    fputc('\n', stderr);
+    kind->printed = true;
+    kind->waiting = (alike_list){0};
 }
 
-/// Whether the last warning was the same: pictures of one place have the same faults.
-static bool is_repeated(const message_log *m, const alp_log_message *logged)
+static void print_waiting(const message_log *m, message_list *list)
 {
-    const message *last = m->warning_count > 0 ? &m->warnings[m->warning_count - 1] : NULL;
+    for (size_t i = 0; i < list->kind_count; i++) {
+        if (list->kinds[i].waiting.count > 0) {
+            print_kind(m, list, &list->kinds[i]);
+        }
+    }
+}
+
+// --- the log -------------------------------------------------------------------------------------
+
+static void add(message_list *list, const alp_log_message *logged)
+{
+    if (list->count == list->capacity) {
+        list->capacity = list->capacity == 0 ? 16 : list->capacity * 2;
+        list->items = allocate_or_exit(list->items, list->capacity * sizeof *list->items);
+    }
+    list->items[list->count++] =
+        (message){copy_text(logged->code), copy_text(logged->object), copy_text(logged->text)};
+}
+
+/// Whether the last message was the same: pictures of one place have the same faults.
+static bool is_repeated(const message_list *list, const alp_log_message *logged)
+{
+    const message *last = list->count > 0 ? &list->items[list->count - 1] : NULL;
     return last != NULL && strcmp(last->code, logged->code) == 0 &&
            strcmp(last->object, logged->object) == 0 && strcmp(last->text, logged->text) == 0;
 }
@@ -120,104 +159,61 @@ static const char *without_path(const char *object, const char *text)
 void messages_log(void *user, const alp_log_message *given)
 {
     message_log *m = user;
-    const alp_log_message cut = {given->level, given->code, given->object,
-                                 without_path(given->object, given->text)};
-    const alp_log_message *logged = &cut;
-    const bool warning = logged->level == ALP_LOG_WARNING;
-    if (warning) {
-        if (is_repeated(m, logged)) {
-            return;
-        }
-        if (!keep(m, logged)) {
-            return;
-        }
+    const alp_log_message logged = {given->level, given->code, given->object,
+                                    without_path(given->object, given->text)};
+    message_list *list = given->level == ALP_LOG_WARNING ? &m->warnings : &m->notes;
+    if ((list == &m->notes && m->quiet) || is_repeated(list, &logged)) {
+        return;
     }
-    if (warning ? !m->held : !m->quiet) {
-        print_message(m, warning, logged->object, logged->text);
+    message_kind *kind = find_kind(list, &logged);
+    add(list, &logged);
+    enqueue(list, kind);
+    if (!m->held && !m->gathered && !kind->printed && !kind->is_rest) {
+        print_kind(m, list, kind);
     }
-}
-
-/// Prints the objects of warnings that have the text of warning `like`: "a, b and 3 more".
-static void print_alike(const message_log *m, int like)
-{
-    enum { NAME_LIMIT = 8 };
-    const char *last = "";
-    size_t names = 0, more = 0;
-    for (size_t i = m->flushed; i < m->warning_count; i++) {
-        const message *w = &m->warnings[i];
-        if (w->like != like) {
-            continue;
-        }
-        if (names == NAME_LIMIT || strcmp(last, w->object) == 0) { // one object several times
-            more++;
-            continue;
-        }
-        fputs(names++ == 0 ? "warning: " : ", ", stderr);
-        print_clean(stderr, w->object[0] != '\0' ? w->object : "the scene");
-        last = w->object;
-    }
-    if (names > 0) {
-        fprintf(stderr, more > 0 ? " and %zu more: " : ": ", more);
-        print_clean(stderr, m->warnings[like].text);
-        fputc('\n', stderr);
-    }
-}
-
-/// Prints the number of warnings that were only counted, with the code of the first.
-static void print_counted(const message_log *m, size_t first)
-{
-    size_t count = 0;
-    for (size_t i = m->flushed; i < m->warning_count; i++) {
-        const message *w = &m->warnings[i];
-        const bool same =
-            w->like == MESSAGE_COUNTED && strcmp(w->code, m->warnings[first].code) == 0;
-        if (same && i < first) {
-            return; // counted already
-        }
-        count += same;
-    }
-    fprintf(stderr, "warning: and %zu more of this kind [", count);
-    print_clean(stderr, m->warnings[first].code);
-    fputs("]\n", stderr);
 }
 
 void messages_flush(message_log *m)
 {
-    bool cleared = m->progress == NULL;
-    if (m->held) {
-        return;
+    if (!m->held) {
+        print_waiting(m, &m->warnings);
+        print_waiting(m, &m->notes);
     }
-    for (size_t i = m->flushed; i < m->warning_count && !cleared; i++) {
-        cleared = m->warnings[i].like != MESSAGE_PRINTED;
-        if (cleared) {
-            progress_clear(m->progress);
+}
+
+void messages_forget(message_log *m, const char *code)
+{
+    message_list *const lists[] = {&m->warnings, &m->notes};
+    for (size_t k = 0; k < 2; k++) {
+        for (size_t i = 0; i < lists[k]->kind_count; i++) {
+            message_kind *kind = &lists[k]->kinds[i];
+            if (strcmp(lists[k]->items[kind->first].code, code) == 0) {
+                kind->waiting = (alike_list){0};
+            }
         }
     }
-    for (size_t i = 0; i < m->warning_count; i++) {
-        if (m->warnings[i].like == MESSAGE_PRINTED) {
-            print_alike(m, (int)i);
-        } else if (m->warnings[i].like == MESSAGE_COUNTED && i >= m->flushed) {
-            print_counted(m, i);
-        }
-    }
-    m->flushed = m->warning_count;
 }
 
 void messages_print_held(message_log *m)
 {
-    for (size_t i = 0; m->held && i < m->warning_count; i++) {
-        print_message(m, true, m->warnings[i].object, m->warnings[i].text);
-    }
     m->held = false;
+    messages_flush(m);
+}
+
+static void release_list(message_list *list)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        free(list->items[i].code);
+        free(list->items[i].object);
+        free(list->items[i].text);
+    }
+    free(list->items);
+    free(list->kinds);
 }
 
 void messages_release(message_log *m)
 {
-    for (size_t i = 0; i < m->warning_count; i++) {
-        free(m->warnings[i].code);
-        free(m->warnings[i].object);
-        free(m->warnings[i].text);
-    }
-    free(m->warnings);
+    release_list(&m->warnings);
+    release_list(&m->notes);
     *m = (message_log){0};
 }

@@ -1,44 +1,59 @@
 // SPDX-License-Identifier: MIT
-// Messages of the library: printed at once, but for warnings like earlier ones, which are printed
-// together; warnings are kept for the report.
+// Messages of the library. Those of one kind are printed in one line; warnings are kept for the
+// report.
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
+#include "alike.h"
 #include "progress.h"
 
 #include <alpenglow/context.h>
 
 #include <stdio.h>
 
-/// States of a warning.
-enum { MESSAGE_PRINTED = -1, MESSAGE_COUNTED = -2 };
-
 typedef struct message {
     char *code, *object, *text;
-    int like; // PRINTED; COUNTED: one of many of its code; or the index of one with the same text,
-              // with which it is still to be printed
 } message;
 
+/// Messages of one code whose texts are alike, printed in one line.
+typedef struct message_kind {
+    size_t first;       // the message whose text the others are compared with
+    bool is_rest;       // the other kinds of a code that has too many
+    bool printed;       // a message of it was
+    alike_list waiting; // to be printed
+    size_t text;        // the first message of those
+} message_kind;
+
+typedef struct message_list {
+    message *items; // [count]
+    size_t count, capacity;
+    message_kind *kinds; // [kind_count]
+    size_t kind_count, kind_capacity;
+} message_list;
+
 typedef struct message_log {
-    bool quiet;                 // notes are not printed
-    bool held;                  // warnings are not printed: the command reports them itself
+    bool quiet;                 // notes are not kept
+    bool held;                  // nothing is printed: the command reports it
+    bool gathered;              // messages wait for messages_flush, also the first of a kind
     progress_display *progress; // its line is cleared first; NULL = none
-    message *warnings;          // [warning_count]
-    size_t warning_count, capacity;
-    size_t flushed; // warnings that messages_flush has seen
+    message_list warnings, notes;
 } message_log;
 
 /// An alp_log_fn; `user` is a message_log.
 void messages_log(void *user, const alp_log_message *logged);
-/// Prints warnings that are like earlier ones: those of one text in one line, and for others of one
-/// code their number.
+/// Prints the messages that wait, one line a kind, unless they are held.
 void messages_flush(message_log *messages);
-/// Prints the warnings that were held, if the command cannot report them.
+/// Drops waiting messages of a code, which the command reports itself.
+void messages_forget(message_log *messages, const char *code);
+/// Prints the messages that were held and not forgotten.
 void messages_print_held(message_log *messages);
 void messages_release(message_log *messages);
 
 /// Prints text from files without control characters, which could steer a terminal.
 void print_clean(FILE *stream, const char *text);
+
+/// "s" unless there is one.
+const char *plural(uint64_t count);
 
 /// Prints "alpenglow: text". @return EXIT_FAILED
 int failure(const char *text);

@@ -101,8 +101,8 @@ static json_t *make_objects(const alp_scene *scene, const alp_lightmap *lightmap
 json_t *report_warnings(const message_log *messages)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < messages->warning_count; i++) {
-        const message *m = &messages->warnings[i];
+    for (size_t i = 0; i < messages->warnings.count; i++) {
+        const message *m = &messages->warnings.items[i];
         json_array_append_new(list,
                               json_pack("{s:o, s:o, s:o}", "code", json_text(m->code), "object",
                                         json_text(m->object), "text", json_text(m->text)));

@@ -72,10 +72,10 @@ static char *make_command(const command_line *a)
 int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_report *report,
                       const alp_diagnosis *diagnosis, const command_line *a)
 {
-    const size_t count = s->messages.warning_count;
+    const size_t count = s->messages.warnings.count;
     alp_report_finding *findings = allocate_or_exit(NULL, count * sizeof *findings);
     for (size_t i = 0; i < count; i++) {
-        const message *m = &s->messages.warnings[i];
+        const message *m = &s->messages.warnings.items[i];
         findings[i] = (alp_report_finding){m->code, m->object, m->text};
     }
     char *command = make_command(a);

@@ -37,11 +37,13 @@ int session_load(session *s, const command_line *a)
     if (code != EXIT_DONE) {
         return code;
     }
+    s->messages.gathered = true;
     alp_result result =
         alp_scene_load_choice(s->context, a->operands[0], a->values[OPTION_SCENE].text, &s->scene);
     alp_scene_set_metals(s->scene, (alp_metals)a->values[OPTION_METALS].choice);
     code = result == ALP_OK ? animation_pose(s, a) : session_end(s, result);
     s->load_seconds = clock_seconds() - start;
+    s->messages.gathered = false;
     messages_flush(&s->messages);
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
@@ -57,7 +59,7 @@ void session_close(session *s)
 
 static bool has_failed_by_warning(const session *s)
 {
-    return s->warnings_as_errors && s->messages.warning_count > 0;
+    return s->warnings_as_errors && s->messages.warnings.count > 0;
 }
 
 bool session_progress(void *user, const alp_progress *state)

@@ -66,6 +66,7 @@ typedef enum alp_finding_kind {
     ALP_FINDING_EMISSION_OFF = 64,   ///< an emissive texture times a factor of 0
     ALP_FINDING_EMISSION_BLACK = 65, ///< an emissive factor times a black texture
     ALP_FINDING_INVISIBLE = 66,      ///< a material that is cut away everywhere
+    ALP_FINDING_UNLIT = 67,          ///< a material that viewers draw without light and occlusion
 
     ALP_FINDING_NO_LIGHT = 90,         ///< no light at all
     ALP_FINDING_LIGHT_INSIDE = 91,     ///< a lamp inside something

@@ -3,6 +3,7 @@
 #ifndef ALPI_DOCTOR_DIAGNOSIS_H
 #define ALPI_DOCTOR_DIAGNOSIS_H
 
+#include "base/plural.h"
 #include "scene/scene.h"
 
 #include <alpenglow/doctor.h>
@@ -74,11 +75,5 @@ alpi_surface_label alpi_doctor_label(const alp_scene *scene, uint32_t surface);
 /// @return number of surfaces in `worst`
 uint32_t alpi_doctor_choose_worst(const alp_scene *scene, const double *measure,
                                   uint32_t worst[ALPI_DOCTOR_SURFACES], uint32_t *all);
-
-/// "s" unless there is one.
-static inline const char *alpi_plural(uint64_t count)
-{
-    return count == 1 ? "" : "s";
-}
 
 #endif

@@ -425,8 +425,9 @@ static alp_result tell(alp_diagnosis *d, const search *s)
                                    "%s%llu open edge%s a vertex of another triangle inside; the "
                                    "longest (%.3g m) belongs to triangle %u",
                                    s->looks > LOOK_LIMIT ? "at least " : "",
-                                   (unsigned long long)edges, edges == 1 ? " has" : "s have",
-                                   s->longest[worst[i]], half / 3 - surface->first_triangle));
+                                   (unsigned long long)edges,
+                                   alpi_one_or_many(edges, " has", "s have"), s->longest[worst[i]],
+                                   half / 3 - surface->first_triangle));
         alpi_diagnosis_mark(d, half / 3, vec3_load(d->scene->positions[s->worst_other[worst[i]]]),
                             NULL);
     }

@@ -117,6 +117,26 @@ static alp_result look_for_invisible(alp_diagnosis *d, uint32_t index)
                : ALP_OK;
 }
 
+/// Whether a bake has warned of all unlit materials.
+static bool is_unlit_known(const alp_diagnosis *d)
+{
+    for (size_t i = 0; i < d->count; i++) {
+        const alp_finding *f = &d->findings[i].view;
+        if (f->kind == ALP_FINDING_UNLIT && f->place != ALP_PLACE_MATERIAL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static alp_result look_for_unlit(alp_diagnosis *d, uint32_t index)
+{
+    const alpi_finding_facts facts = {ALP_FINDING_UNLIT, ALP_PLACE_MATERIAL, index, 0, NO_VALUE};
+    return d->scene->materials[index].unlit && !is_unlit_known(d)
+               ? alpi_diagnosis_add(d, facts, "unlit (KHR_materials_unlit)")
+               : ALP_OK;
+}
+
 alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis)
 {
     const alp_scene *scene = diagnosis->scene;
@@ -135,6 +155,9 @@ alp_result alpi_doctor_look_at_materials(alp_diagnosis *diagnosis)
         result = used[m] ? look_at_emission(diagnosis, m) : ALP_OK;
         if (result == ALP_OK && used[m]) {
             result = look_for_invisible(diagnosis, m);
+        }
+        if (result == ALP_OK && used[m]) {
+            result = look_for_unlit(diagnosis, m);
         }
     }
     alpi_release(diagnosis->context, used);

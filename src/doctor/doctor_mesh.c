@@ -38,6 +38,33 @@ static alp_result look_for_triangles(alp_diagnosis *d)
                               scene->triangle_count, alpi_plural(scene->triangle_count));
 }
 
+/// One finding for all triangles without area, at the first surface that has any.
+static alp_result look_for_flat(alp_diagnosis *d)
+{
+    const alp_scene *scene = d->scene;
+    alpi_finding_facts facts = {
+        .kind = ALP_FINDING_ZERO_AREA, .place = ALP_PLACE_SURFACE, .value = NO_VALUE};
+    uint32_t surfaces = 0;
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        if (scene->surfaces[s].flat_count > 0) {
+            facts.index = surfaces++ == 0 ? s : facts.index;
+            facts.count += scene->surfaces[s].flat_count;
+        }
+    }
+    if (surfaces == 0) {
+        return ALP_OK;
+    }
+    const uint32_t first = scene->surfaces[facts.index].flat_count;
+    const uint32_t of = scene->surfaces[facts.index].triangle_count;
+    return surfaces == 1
+               ? alpi_diagnosis_add(d, facts, "%u of %u triangle%s %s no area", first, of,
+                                    alpi_plural(of), alpi_one_or_many(first, "has", "have"))
+               : alpi_diagnosis_add(d, facts,
+                                    "%u of %u triangle%s %s no area (%llu in %u surfaces)", first,
+                                    of, alpi_plural(of), alpi_one_or_many(first, "has", "have"),
+                                    (unsigned long long)facts.count, surfaces);
+}
+
 // --- the same place twice ------------------------------------------------------------------------
 
 /// Corners of a triangle in one order, whatever the file's, and whether that turned it round.
@@ -171,9 +198,10 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.kind = ALP_FINDING_DUPLICATES;
             facts.count = w->same[s];
             facts.value = (double)w->same[s] / surface->triangle_count;
-            ALP_TRY(alpi_diagnosis_add(d, facts, "%u of %u triangle%s exactly on others, of %s",
+            ALP_TRY(alpi_diagnosis_add(d, facts, "%u of %u triangle%s %s exactly on others, of %s",
                                        w->same[s], surface->triangle_count,
-                                       surface->triangle_count == 1 ? " lies" : "s lie", with));
+                                       alpi_plural(surface->triangle_count),
+                                       alpi_one_or_many(w->same[s], "lies", "lie"), with));
             alpi_diagnosis_mark_triangle(d, w->first[0][s]);
         }
         if (w->opposite[s] > 0) {
@@ -181,8 +209,9 @@ static alp_result tell_twins(alp_diagnosis *d, const twins *w)
             facts.count = w->opposite[s];
             facts.value = (double)w->opposite[s] / surface->triangle_count;
             ALP_TRY(alpi_diagnosis_add(
-                d, facts, "%u of %u triangle%s back to back with others, of %s", w->opposite[s],
-                surface->triangle_count, surface->triangle_count == 1 ? " lies" : "s lie", with));
+                d, facts, "%u of %u triangle%s %s back to back with others, of %s", w->opposite[s],
+                surface->triangle_count, alpi_plural(surface->triangle_count),
+                alpi_one_or_many(w->opposite[s], "lies", "lie"), with));
             alpi_diagnosis_mark_triangle(d, w->first[1][s]);
         }
     }
@@ -246,9 +275,11 @@ static alp_result look_for_reversed(alp_diagnosis *d)
             const alpi_finding_facts facts = {ALP_FINDING_REVERSED_NORMALS, ALP_PLACE_SURFACE, s,
                                               count, share};
             ALP_TRY(alpi_diagnosis_add(d, facts,
-                                       "the normals of %u of %u triangles, %.3g %% of the area, "
-                                       "point to their backs",
-                                       count, surface->triangle_count, 100.0 * share));
+                                       "the normals of %u of %u triangle%s, %.3g %% of the area, "
+                                       "point to %s",
+                                       count, surface->triangle_count,
+                                       alpi_plural(surface->triangle_count), 100.0 * share,
+                                       alpi_one_or_many(count, "its back", "their backs")));
             alpi_diagnosis_mark_triangle(d, largest);
         }
     }
@@ -288,9 +319,10 @@ static alp_result look_for_inside_out(alp_diagnosis *d)
             const alpi_finding_facts facts = {ALP_FINDING_INSIDE_OUT, ALP_PLACE_SURFACE, s, count,
                                               share};
             ALP_TRY(alpi_diagnosis_add(d, facts,
-                                       "%u of %u triangles, %.3g %% of the area, belong to "
+                                       "%u of %u triangles, %.3g %% of the area, %s to "
                                        "double-sided solids that are wound inwards",
-                                       count, surface->triangle_count, 100.0 * share));
+                                       count, surface->triangle_count, 100.0 * share,
+                                       alpi_one_or_many(count, "belongs", "belong")));
             alpi_diagnosis_mark_triangle(d, largest);
         }
     }
@@ -358,6 +390,7 @@ static alp_result look_at_size(alp_diagnosis *d)
 alp_result alpi_doctor_look_at_mesh(alp_diagnosis *diagnosis)
 {
     ALP_TRY(look_for_triangles(diagnosis));
+    ALP_TRY(look_for_flat(diagnosis));
     ALP_TRY(look_for_twins(diagnosis));
     ALP_TRY(look_for_reversed(diagnosis));
     ALP_TRY(look_for_inside_out(diagnosis));

@@ -399,10 +399,12 @@ static alp_result tell(alp_diagnosis *d, const search *s, uint32_t *counts)
                                           counts[surface], s->areas[surface]};
         ALP_TRY(alpi_diagnosis_add(
             d, facts,
-            "%s%u of %u triangle%s in one plane with others and overlap them in part, of %s, by "
+            "%s%u of %u triangle%s %s in one plane with others and %s them in part, of %s, by "
             "%.2g m² at most",
             s->all ? "" : "at least ", counts[surface], d->scene->surfaces[surface].triangle_count,
-            d->scene->surfaces[surface].triangle_count == 1 ? " lies" : "s lie",
+            alpi_plural(d->scene->surfaces[surface].triangle_count),
+            alpi_one_or_many(counts[surface], "lies", "lie"),
+            alpi_one_or_many(counts[surface], "overlaps", "overlap"),
             with == surface ? "itself" : alpi_doctor_label(d->scene, with).text,
             s->largest[surface]));
         alpi_diagnosis_mark(d, s->worst[surface], vec3_load(s->at[surface]), NULL);

@@ -59,16 +59,17 @@ static char *make_reason(const alp_diagnosis *d, uint32_t set, const alpi_uv_set
         return alpi_copy_string(context, "a shader blends it with two others");
     }
     if (f->missing_surfaces > 0) {
-        return alpi_format(context, "%u of %u surfaces lack it", f->missing_surfaces,
-                           f->missing_surfaces + f->surfaces);
+        return alpi_format(context, "%u of %u surfaces %s it", f->missing_surfaces,
+                           f->missing_surfaces + f->surfaces,
+                           alpi_one_or_many(f->missing_surfaces, "lacks", "lack"));
     }
     if (f->outside > 0) {
         return alpi_format(context, "%u triangle%s outside of [0, 1]", f->outside,
-                           f->outside == 1 ? " lies" : "s lie");
+                           alpi_one_or_many(f->outside, " lies", "s lie"));
     }
     if (f->flat > 0) {
         return alpi_format(context, "%u triangle%s no area in it", f->flat,
-                           f->flat == 1 ? " has" : "s have");
+                           alpi_one_or_many(f->flat, " has", "s have"));
     }
     if (f->overlapping > 0) {
         return alpi_format(context, "triangles overlap%s",
@@ -112,8 +113,9 @@ static alp_result tell_missing(alp_diagnosis *d, const alpi_uv_set_facts *f)
                                       f->missing_surfaces, NO_VALUE};
     return f->missing_surfaces == 0 || f->surfaces == 0
                ? ALP_OK
-               : alpi_diagnosis_add(d, facts, "%u of %u surfaces lack it, such as %.60s",
+               : alpi_diagnosis_add(d, facts, "%u of %u surfaces %s it, such as %.60s",
                                     f->missing_surfaces, f->missing_surfaces + f->surfaces,
+                                    alpi_one_or_many(f->missing_surfaces, "lacks", "lack"),
                                     d->scene->surfaces[f->first_missing].name);
 }
 
@@ -175,9 +177,10 @@ static alp_result tell_space(alp_diagnosis *d, const alpi_uv_set_facts *f, const
         const alpi_finding_facts facts = {ALP_FINDING_UV_PADDING, ALP_PLACE_UV_SET, ALPI_KEPT_SET,
                                           f->touching, (double)f->touching / f->islands};
         ALP_TRY(alpi_diagnosis_add(d, facts,
-                                   "%u of %u islands have no free texel to the next one on a page "
+                                   "%u of %u islands %s no free texel to the next one on a page "
                                    "of %u",
-                                   f->touching, f->islands, d->page_size));
+                                   f->touching, f->islands,
+                                   alpi_one_or_many(f->touching, "has", "have"), d->page_size));
         mark_in_set(d, q->near[0], q->gap);
     }
     if (f->touching == 0 && q->near[0] != ALPI_NONE && q->free < TWO_LEVELS) {
@@ -215,10 +218,11 @@ static alp_result tell_tiny(alp_diagnosis *d, const alpi_uv_set_facts *f, const 
                                       q->tiny_share};
     ALP_TRY(alpi_diagnosis_add(
         d, facts,
-        "%u of %u islands, %.3g %% of the surface, %s less than a texel on a page of %u, such as "
+        "%u of %u island%s, %.3g %% of the surface, %s less than a texel on a page of %u, such as "
         "that of triangle %u of %.60s, which would need a page of %llu",
-        q->tiny, f->islands, 100.0 * q->tiny_share, q->tiny == 1 ? "has" : "have", d->page_size,
-        at.triangle, at.surface, (unsigned long long)helping_size(d, q->tiny_texels)));
+        q->tiny, f->islands, alpi_plural(f->islands), 100.0 * q->tiny_share,
+        alpi_one_or_many(q->tiny, "has", "have"), d->page_size, at.triangle, at.surface,
+        (unsigned long long)helping_size(d, q->tiny_texels)));
     mark_in_set(d, q->tiny_worst, NULL);
     return ALP_OK;
 }

@@ -125,6 +125,9 @@ static const alpi_finding_words words[] = {
     {ALP_FINDING_INVISIBLE, ALP_SEVERITY_NOTE, "invisible",
      "nothing: rays pass through, but its triangles take texels",
      "leave such helpers out of the export, or out of the bake with --only"},
+    {ALP_FINDING_UNLIT, ALP_SEVERITY_NOTE, "unlit",
+     "its base colour alone: viewers do not show baked occlusion there",
+     "nothing if it should ignore light; else take the extension out, or bake --atlas vertex"},
 
     {ALP_FINDING_NO_LIGHT, ALP_SEVERITY_NOTE, "no-light",
      "--maps light refuses the scene; occlusion needs no lights",

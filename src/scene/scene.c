@@ -3,6 +3,7 @@
 #include "scene/scene.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "scene/area_points.h"
 #include "scene/blend_weights.h"
 #include "scene/sides.h"
@@ -148,8 +149,9 @@ static void mark_triangles(alp_scene *scene)
     scene->bounds_min = (vec3){INFINITY, INFINITY, INFINITY};
     scene->bounds_max = (vec3){-INFINITY, -INFINITY, -INFINITY};
     for (uint32_t s = 0; s < scene->surface_count; s++) {
-        const alpi_surface *surface = &scene->surfaces[s];
-        uint32_t broken = 0, flat = 0;
+        alpi_surface *surface = &scene->surfaces[s];
+        uint32_t broken = 0;
+        surface->flat_count = 0;
         for (uint32_t i = 0; i < surface->triangle_count; i++) {
             uint32_t t = surface->first_triangle + i;
             const uint32_t *v = scene->triangles[t];
@@ -161,7 +163,7 @@ static void mark_triangles(alp_scene *scene)
             double area = vec3_triangle_area(c[0], c[1], c[2]);
             bool usable = finite && area > 0.0 && isfinite(area);
             broken += !finite;
-            flat += finite && !usable;
+            surface->flat_count += finite && !usable;
             scene->triangle_usable[t] = usable;
             if (usable) {
                 scene->usable_count++;
@@ -177,11 +179,6 @@ static void mark_triangles(alp_scene *scene)
                       "%u of %u triangles left out: a coordinate is not finite or beyond %g m",
                       broken, surface->triangle_count, (double)ALPI_COORDINATE_LIMIT);
         }
-        if (flat > 0) {
-            alpi_warn(scene->context, "zero-area", surface->name,
-                      "%u of %u triangles left out: they have no area", flat,
-                      surface->triangle_count);
-        }
     }
     if (scene->usable_count == 0) {
         scene->bounds_min = scene->bounds_max = (vec3){0.0f, 0.0f, 0.0f};
@@ -190,6 +187,21 @@ static void mark_triangles(alp_scene *scene)
         if (!position_is_usable(scene->positions[v])) {
             memset(scene->positions[v], 0, sizeof scene->positions[v]);
         }
+    }
+}
+
+/// Triangles without area are invisible in any case.
+static void note_flat(const alp_scene *scene)
+{
+    uint32_t flat = 0, surfaces = 0;
+    for (uint32_t s = 0; s < scene->surface_count; s++) {
+        flat += scene->surfaces[s].flat_count;
+        surfaces += scene->surfaces[s].flat_count > 0;
+    }
+    if (flat > 0) {
+        alpi_note(scene->context, "zero-area", scene->name,
+                  "triangles left out because they have no area: %u of %u, in %u surface%s", flat,
+                  scene->triangle_count, surfaces, alpi_plural(surfaces));
     }
 }
 
@@ -326,6 +338,7 @@ alp_result alpi_scene_finish_quietly(alp_scene *scene)
 alp_result alpi_scene_finish(alp_scene *scene)
 {
     ALP_TRY(alpi_scene_finish_quietly(scene));
+    note_flat(scene);
     warn_of_metal(scene);
     warn_of_precision(scene);
     return ALP_OK;

@@ -63,6 +63,7 @@ typedef struct alpi_material {
     alpi_texture transmission_texture; // channel R, linear
     alpi_texture normal_texture;       // tangent space, linear; bakes do not read it
     float normal_scale;                // of its x and y
+    bool unlit;                        // viewers draw the base colour alone
     alpi_shine shine;
 } alpi_material;
 
@@ -73,6 +74,7 @@ typedef struct alpi_surface {
     uint32_t instance; // of those in which the node shows its mesh, 0 where it is shown once
     uint32_t material; // ALPI_NONE = none: ρ = .5
     uint32_t first_vertex, vertex_count;
+    uint32_t flat_count; // triangles without area, which are left out
     uint32_t first_triangle,
         triangle_count;     // triangles of the primitive in file order, none dropped
     uint32_t uv_sets;       // sets 0 … uv_sets−1 are present in the file

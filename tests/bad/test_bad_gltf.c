@@ -151,7 +151,7 @@ TEST_WITH_CONTEXT(hostile_structures, 1)
          ALP_ERROR_INVALID_DATA},
         {"{" ASSET ",'nodes':[{'children':[1]},{}],'scenes':[{'nodes':[1]}]}", "is not a root",
          ALP_ERROR_INVALID_DATA},
-        {"{" ASSET ",'scene':3,'scenes':[{}]}", "scene is 3, but there are only 1",
+        {"{" ASSET ",'scene':3,'scenes':[{}]}", "scene is 3, but there is only 1",
          ALP_ERROR_INVALID_DATA},
         {"{" ASSET ",'nodes':{'a':1}}", "nodes: must be an array", ALP_ERROR_INVALID_DATA},
         {"{" ASSET ",'meshes':[3]}", "meshes: element 0 must be an object", ALP_ERROR_INVALID_DATA},

@@ -11,7 +11,7 @@ CALL = re.compile(r'alpi_warn\(\s*[^,"]+,\s*("([a-z0-9-]+)")?')
 # to do.
 NOT_READERS = {
     "baked-twice", "compression", "conversion", "copies", "extras", "hdr-range", "images", "lightmap-metal",
-    "missing-file", "no-uv-set", "outside-file", "sky-image", "sun-below-horizon", "texture-lost", "unlit",
+    "missing-file", "no-uv-set", "outside-file", "sky-image", "sun-below-horizon", "texture-lost",
     "uv-sets", "variants",
 }
 

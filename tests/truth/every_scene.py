@@ -44,7 +44,7 @@ WARNED = {
     "corrupt_png.glb": "PNG: .*read without this texture",
     "far_from_origin_6378km.glb": "move it near the origin",
     "index_count_not_3n.glb": "make no triangle",
-    "material_index_out_of_range.glb": "there are only 0 materials",
+    "material_index_out_of_range.glb": "there are no materials",
     "missing_mtl.obj": "is not there",
     "spot_inner_gt_outer.glb": "cone angles",
     "zero_normals.glb": "normals are zero",

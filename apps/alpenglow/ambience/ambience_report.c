@@ -78,12 +78,13 @@ void ambience_print_summary(const ambience_record *r)
 {
     const totals t = add_up(r);
     const ambience_second *last = &r->seconds[r->count - 1];
-    printf("sampled    %llu anchors, %.3g a second; relit %llu\n", (unsigned long long)t.samples,
-           rate(&t), (unsigned long long)t.relit);
+    printf("sampled    %llu anchor%s, %.3g a second; relit %llu\n", (unsigned long long)t.samples,
+           plural(t.samples), rate(&t), (unsigned long long)t.relit);
     printf("update     %.3g ms a frame in the mean, %.3g ms at worst\n",
            1e3 * t.clock / (double)t.frames, t.worst_ms);
-    printf("memory     %.3g MB, %u anchors in %u levels\n", 1e-6 * (double)last->info.bytes,
-           last->info.anchors, last->info.levels);
+    printf("memory     %.3g MB, %u anchor%s in %u level%s\n", 1e-6 * (double)last->info.bytes,
+           last->info.anchors, plural(last->info.anchors), last->info.levels,
+           plural(last->info.levels));
     if (isfinite(t.error)) {
         printf("error      %.3g %% in the mean\n", t.error);
     }

@@ -163,6 +163,7 @@ int command_compare(const command_line *arguments)
     alp_image_destroy(c.b);
     alp_image_destroy(c.heatmap);
     alp_context_destroy(c.context);
+    messages_flush(&messages);
     messages_release(&messages);
     return code;
 }

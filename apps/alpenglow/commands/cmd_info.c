@@ -130,7 +130,7 @@ static void print_surfaces(const alp_scene *scene, uint32_t count)
     }
     if (count > ROW_LIMIT) {
         printf("%10s  %u more surface%s; --json lists all\n", "and", count - ROW_LIMIT,
-               count - ROW_LIMIT == 1 ? "" : "s");
+               plural(count - ROW_LIMIT));
     }
 }
 
@@ -198,7 +198,7 @@ static void print_rest(uint32_t count, const char *what)
 {
     if (count > ROW_LIMIT) {
         const uint32_t rest = count - ROW_LIMIT;
-        printf("light      and %u more %s%s; --json lists all\n", rest, what, rest == 1 ? "" : "s");
+        printf("light      and %u more %s%s; --json lists all\n", rest, what, plural(rest));
     }
 }
 
@@ -230,7 +230,7 @@ static void print_animations(const alp_scene *scene, uint32_t count)
         const alp_animation_info a = alp_scene_get_animation(scene, i);
         printf("%sanimation  %u ", i == 0 ? "\n" : "", i);
         print_clean(stdout, a.name[0] != '\0' ? a.name : "(no name)");
-        printf(", %g s, %u channel%s\n", a.seconds, a.channels, a.channels == 1 ? "" : "s");
+        printf(", %g s, %u channel%s\n", a.seconds, a.channels, plural(a.channels));
     }
     if (count > ROW_LIMIT) {
         printf("animation  and %u more; --json lists all\n", count - ROW_LIMIT);
@@ -456,6 +456,14 @@ static int check_json(const command_line *a)
     return output_check_json(path, a->values[OPTION_FORCE].given);
 }
 
+/// Messages that are findings too are printed as such.
+static void forget_findings(message_log *messages, const alp_diagnosis *diagnosis)
+{
+    for (uint32_t i = 0; i < alp_diagnosis_finding_count(diagnosis); i++) {
+        messages_forget(messages, alp_diagnosis_get_finding(diagnosis, i).code);
+    }
+}
+
 int command_info(const command_line *a)
 {
     session s;
@@ -475,18 +483,18 @@ int command_info(const command_line *a)
         return code;
     }
     code = session_open(&s, a);
-    s.messages.held = !a->values[OPTION_JSON].given; // they are among the findings
+    s.messages.held = !a->values[OPTION_JSON].given; // most are among the findings
     if (code == EXIT_DONE) {
         code = session_load(&s, a);
     }
     if (code == EXIT_DONE) {
         code = look(&s, &work, &diagnosis);
     }
+    forget_findings(&s.messages, diagnosis);
+    messages_print_held(&s.messages);
     if (code == EXIT_DONE) {
         code = tell(&s, a, &work, diagnosis);
         code = code == EXIT_DONE ? print_probes(&s, a) : code;
-    } else {
-        messages_print_held(&s.messages);
     }
     alp_diagnosis_destroy(diagnosis);
     session_close(&s);

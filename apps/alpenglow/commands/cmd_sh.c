@@ -42,7 +42,7 @@ static int check_environment(const char *path, const alp_image *image)
                  path);
     } else if (info.channels < 3) {
         snprintf(text, sizeof text, "%.700s: has %u channel%s; an environment needs R, G and B",
-                 path, info.channels, info.channels == 1 ? "" : "s");
+                 path, info.channels, plural(info.channels));
     } else if (info.width != 2 * info.height) {
         snprintf(text, sizeof text,
                  "%.700s: has %u x %u pixels; an environment is equirectangular, twice as wide as "
@@ -103,6 +103,7 @@ int command_sh(const command_line *arguments)
     alp_image_destroy(p.irradiance);
     alp_image_destroy(p.display);
     alp_context_destroy(p.context);
+    messages_flush(&messages);
     messages_release(&messages);
     return code;
 }

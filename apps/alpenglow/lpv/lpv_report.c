@@ -42,10 +42,11 @@ void lpv_print(const lpv_run *run, const lpv_record *r)
     for (int stage = 0; stage < LPV_STAGES; stage++) {
         printf("%-10s %9.3g  %9.3g\n", stage_names[stage], median_of(r, stage), worst_of(r, stage));
     }
-    printf("frames     %u, %llu rays and %llu virtual lights each\n", r->count,
-           (unsigned long long)last->rays, (unsigned long long)last->lights);
+    printf("frames     %u, %llu ray%s and %llu virtual light%s each\n", r->count,
+           (unsigned long long)last->rays, plural(last->rays), (unsigned long long)last->lights,
+           plural(last->lights));
     printf("memory     %.3g MB, %u grid%s of %u x %u x %u cells, the finest of %.3g m\n",
-           1e-6 * (double)alp_lpv_memory(o), o->cascades, o->cascades == 1 ? "" : "s", o->size[0],
+           1e-6 * (double)alp_lpv_memory(o), o->cascades, plural(o->cascades), o->size[0],
            o->size[1], o->size[2], o->cell);
     printf("flux       %.4g %.4g %.4g W injected, red, green and blue\n", last->flux[0],
            last->flux[1], last->flux[2]);

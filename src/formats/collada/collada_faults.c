@@ -85,63 +85,84 @@ bool alpi_collada_survives(const alpi_collada_document *document, alp_result *re
     return true;
 }
 
-void alpi_collada_tell_oddities(const alpi_collada_reader *r)
+/// Elements that cost a warning each, past the limit of such warnings.
+static void warn_of_more(const alpi_collada_reader *r)
 {
-    alp_context *context = r->context;
     const char *path = r->document->path;
-    tell_missing(r);
     if (r->bad_parts > ALPI_COLLADA_TOLD_LIMIT) {
-        alpi_warn(context, "bad-faces", path, "more primitives that are left out: %u",
+        alpi_warn(r->context, "bad-faces", path, "more primitives that are left out: %u",
                   r->bad_parts - ALPI_COLLADA_TOLD_LIMIT);
     }
     if (r->bad_fixtures > ALPI_COLLADA_TOLD_LIMIT) {
-        alpi_warn(context, "bad-fixture", path, "more lights or cameras that are left out: %u",
+        alpi_warn(r->context, "bad-fixture", path, "more lights or cameras that are left out: %u",
                   r->bad_fixtures - ALPI_COLLADA_TOLD_LIMIT);
     }
-    if (r->skinned > 0) {
-        alpi_note(context, "skin", path,
-                  "%u skinned meshes are read in their rest pose, before the skin is applied",
-                  r->skinned);
-    }
-    if (r->morphed > 0) {
-        alpi_note(context, "morph", path, "meshes read without their morph targets: %u",
-                  r->morphed);
-    }
-    if (r->not_triangles > 0) {
-        alpi_note(context, "not-triangles", path, "<lines> and <linestrips> left out: %u",
-                  r->not_triangles);
-    }
+}
+
+static void warn_of_geometries(const alpi_collada_reader *r)
+{
+    char owner[ALPI_COLLADA_OWNER_SIZE];
     if (r->not_meshes > 0) {
-        alpi_warn(context, "not-mesh", path,
+        alpi_warn(r->context, "not-mesh", r->document->path,
                   "instances of geometries other than <mesh> (splines, convex hulls, solids) "
                   "left out: %u; export them as meshes",
                   r->not_meshes);
     }
     if (r->empty > 0) {
-        char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(r->document, r->first_empty, owner);
-        alpi_warn(context, "empty-geometry", owner,
+        alpi_warn(r->context, "empty-geometry", owner,
                   "geometries without a triangle are left out, this one first: %u", r->empty);
     }
-    if (r->without_material > 0) {
-        alpi_note(context, "no-material", path,
-                  "primitives without a material, taken as a grey of albedo 0.5: %u",
-                  r->without_material);
-    }
+}
+
+static void warn_of_materials(const alpi_collada_reader *r)
+{
+    char owner[ALPI_COLLADA_OWNER_SIZE];
     if (r->odd_alpha > 0) {
-        alpi_warn(context, "alpha", path,
+        alpi_warn(r->context, "alpha", r->document->path,
                   "materials with the invisible opacity that some exporters write for opaque "
                   "ones: %u; read as opaque",
                   r->odd_alpha);
     }
     if (r->lost_sets > 0) {
-        char owner[ALPI_COLLADA_OWNER_SIZE];
         alpi_collada_owner(r->document, r->lost_set, owner);
-        alpi_warn(context, "uv-set", owner,
+        alpi_warn(r->context, "uv-set", owner,
                   "textures left out because they are bound to a coordinate set that their "
                   "primitive does not have, this one first: %u; correct the input_set",
                   r->lost_sets);
     }
+}
+
+static void note_assumptions(const alpi_collada_reader *r)
+{
+    const char *path = r->document->path;
+    if (r->skinned > 0) {
+        alpi_note(r->context, "skin", path,
+                  "skinned meshes, read in their rest pose, before the skin is applied: %u",
+                  r->skinned);
+    }
+    if (r->morphed > 0) {
+        alpi_note(r->context, "morph", path, "meshes read without their morph targets: %u",
+                  r->morphed);
+    }
+    if (r->not_triangles > 0) {
+        alpi_note(r->context, "not-triangles", path, "<lines> and <linestrips> left out: %u",
+                  r->not_triangles);
+    }
+    if (r->without_material > 0) {
+        alpi_note(r->context, "no-material", path,
+                  "primitives without a material, taken as a grey of albedo 0.5: %u",
+                  r->without_material);
+    }
+}
+
+void alpi_collada_tell_oddities(const alpi_collada_reader *reader)
+{
+    tell_missing(reader);
+    warn_of_more(reader);
+    warn_of_geometries(reader);
+    warn_of_materials(reader);
+    note_assumptions(reader);
 }
 
 void alpi_collada_tell_losses(const alp_scene *scene)

@@ -199,7 +199,8 @@ static void tell_oddities(const alpi_collada_reader *reader, const alpi_collada_
     alpi_collada_owner(reader->document, part->element, owner);
     if (faces->untidy > 0) {
         alpi_warn(reader->context, "crossed-faces", owner,
-                  "%u polygons cross themselves or have holes outside: their triangles overlap",
+                  "polygons that cross themselves or have holes outside, so that their triangles "
+                  "overlap: %u",
                   faces->untidy);
     }
     if (faces->dropped > 0) {

@@ -322,7 +322,7 @@ static alp_result place_all(alpi_collada_reader *reader)
     }
     if (reader->placement_count > 0) {
         alpi_warn(reader->context, "no-scene", document->path,
-                  "has no visual scene: its %u geometries are placed without a transform",
+                  "has no visual scene: its geometries are placed without a transform: %u",
                   reader->placement_count);
     }
     return ALP_OK;

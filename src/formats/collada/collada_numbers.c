@@ -4,6 +4,7 @@
 #include "formats/collada/collada_numbers.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 
 #include <math.h>
 #include <string.h>
@@ -158,8 +159,9 @@ static alp_result fail_word(const alpi_collada_document *d, const xmlNode *node,
         lines += *c == '\n';
     }
     const size_t length = strcspn(p, " \t\r\n");
-    return alpi_collada_fail(d, node, "\"%.*s\" (%u lines further) is no %s",
-                             (int)(length < 40 ? length : 40), p, lines, wanted);
+    return alpi_collada_fail(d, node, "\"%.*s\" (%u line%s further) is no %s",
+                             (int)(length < 40 ? length : 40), p, lines, alpi_plural(lines),
+                             wanted);
 }
 
 static size_t count_numbers(const xmlNode *node)

@@ -219,8 +219,8 @@ static void fill_uvs(const filling *f, uint32_t set)
     }
     if (bad > 0) {
         alpi_warn(f->reader->context, "bad-uvs", f->surface->name,
-                  "%u values of texture coordinate set %u are not finite: 0 is used", bad,
-                  f->part->inputs.uv_numbers[set]);
+                  "values of texture coordinate set %u that are not finite, and count as 0: %u",
+                  f->part->inputs.uv_numbers[set], bad);
     }
 }
 

@@ -209,8 +209,7 @@ static alp_result walk_channels(alpi_gltf_reader *reader, size_t index, walk *w)
     return ALP_OK;
 }
 
-/// Lists one animation. @param unread increased
-static alp_result list_animation(alpi_gltf_reader *reader, size_t index, walk *w, uint32_t *unread)
+static alp_result list_animation(alpi_gltf_reader *reader, size_t index, walk *w)
 {
     alp_scene *scene = reader->scene;
     alpi_animation *a = &scene->animations[scene->animation_count++];
@@ -220,25 +219,19 @@ static alp_result list_animation(alpi_gltf_reader *reader, size_t index, walk *w
         return ALP_ERROR_OUT_OF_MEMORY;
     }
     w->end = 0.0;
-    w->channels = w->unread = 0;
+    w->channels = 0;
     ALP_TRY(walk_channels(reader, index, w));
     a->seconds = w->end;
     a->channels = w->channels;
-    *unread += w->unread;
     return ALP_OK;
 }
 
 static alp_result list_animations(alpi_gltf_reader *reader, size_t count, walk *w)
 {
-    uint32_t unread = 0;
     ALPI_TRY_NEW(reader->context, reader->scene->animations, count);
     ALPI_TRY_NEW(reader->context, w->marks, reader->node_count);
     for (size_t i = 0; i < count; i++) {
-        ALP_TRY(list_animation(reader, i, w, &unread));
-    }
-    if (unread > 0) {
-        alpi_warn(reader->context, "animation", reader->document->path,
-                  "channels left out, which move neither transforms nor morph targets: %u", unread);
+        ALP_TRY(list_animation(reader, i, w));
     }
     return ALP_OK;
 }
@@ -297,6 +290,7 @@ alp_result alpi_gltf_read_moments(alpi_gltf_reader *reader, size_t index, double
     reader->moment_count = count;
     ALPI_TRY_NEW(reader->context, w.marks, count);
     const alp_result result = walk_channels(reader, index, &w);
+    reader->unread_channels = w.unread;
     alpi_release(reader->context, w.marks);
     return result;
 }

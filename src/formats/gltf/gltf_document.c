@@ -4,6 +4,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
 #include "formats/gltf/gltf_mend.h"
@@ -79,7 +80,8 @@ static alp_result check_glb_header(const alpi_gltf_document *document, size_t *e
     }
     if (*end < document->file_size) {
         alpi_warn(document->context, "trailing-bytes", document->path,
-                  "%zu bytes after the end of the GLB are ignored", document->file_size - *end);
+                  "bytes after the end of the GLB, which are ignored: %zu",
+                  document->file_size - *end);
     }
     return ALP_OK;
 }
@@ -114,6 +116,34 @@ static alp_result read_glb(alpi_gltf_document *document)
     return ALP_OK;
 }
 
+static bool starts_json(uint8_t byte)
+{
+    return byte != 0 && strchr(" \t\r\n{", byte) != NULL;
+}
+
+/// The encoding of a JSON text of two or four bytes a character, by its mark or its first
+/// character; NULL for others.
+static const char *find_wide_encoding(const uint8_t *bytes, size_t size)
+{
+    if (size < 8) {
+        return NULL;
+    }
+    if (memcmp(bytes, "\xff\xfe\0\0", 4) == 0 || memcmp(bytes, "\0\0\xfe\xff", 4) == 0) {
+        return "UTF-32";
+    }
+    if (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0) {
+        return "UTF-16";
+    }
+    if (starts_json(bytes[0]) && bytes[1] == 0) {
+        return bytes[2] != 0 ? "UTF-16LE" : "UTF-32LE";
+    }
+    if (bytes[0] == 0 && starts_json(bytes[1])) {
+        return "UTF-16BE";
+    }
+    const bool big = memcmp(bytes, "\0\0\0", 3) == 0 && memcmp(bytes + 4, "\0\0\0", 3) == 0;
+    return big && starts_json(bytes[3]) ? "UTF-32BE" : NULL;
+}
+
 /// Finds the JSON text: in a GLB's first chunk, or the whole file without a byte-order mark.
 static alp_result read_container(alpi_gltf_document *document)
 {
@@ -121,6 +151,13 @@ static alp_result read_container(alpi_gltf_document *document)
     size_t size = document->file_size;
     if (size >= 4 && memcmp(bytes, "glTF", 4) == 0) {
         return read_glb(document);
+    }
+    const char *encoding = find_wide_encoding(bytes, size);
+    if (encoding != NULL) {
+        return alpi_fail(document->context, ALP_ERROR_INVALID_DATA,
+                         "%s: is in %s, and glTF is UTF-8; save it as UTF-8, or run "
+                         "iconv -f %s -t UTF-8",
+                         document->path, encoding, encoding);
     }
     size_t first = size >= 3 && memcmp(bytes, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
     document->text = (const char *)bytes + first;
@@ -369,8 +406,8 @@ static alp_result read_buffer(alpi_gltf_document *document, size_t index)
                               index == 0 ? " and the file has no BIN chunk" : "");
     }
     if (buffer->size < length) {
-        return alpi_gltf_fail(document, owner, "byteLength is %zu, but there are only %zu bytes",
-                              length, buffer->size);
+        return alpi_gltf_fail(document, owner, "byteLength is %zu, but there are only %zu byte%s",
+                              length, buffer->size, alpi_plural(buffer->size));
     }
     return ALP_OK;
 }
@@ -414,6 +451,8 @@ static alp_result fill_document(alpi_gltf_document *document, const char *path)
     ALP_TRY(check_version(document));
     ALP_TRY(check_extensions(document));
     ALP_TRY(check_arrays(document));
+    ALPI_TRY_NEW(document->context, document->told_textures, alpi_gltf_count(document, "textures"));
+    ALPI_TRY_NEW(document->context, document->told_images, alpi_gltf_count(document, "images"));
     ALP_TRY(mend_references(document));
     ALP_TRY(read_buffers(document));
     ALP_TRY(alpi_gltf_decode_views(document));
@@ -471,6 +510,8 @@ void alpi_gltf_document_destroy(alpi_gltf_document *document)
         alpi_release(context, document->decoded[i].values.bytes);
     }
     json_decref(document->root);
+    alpi_release(context, document->told_textures);
+    alpi_release(context, document->told_images);
     alpi_release(context, document->decoded_views);
     alpi_release(context, document->decoded);
     alpi_release(context, document->buffers);

@@ -38,6 +38,8 @@ typedef struct alpi_gltf_document {
     struct alpi_gltf_decoded *decoded; // [accessors] of compressed primitives; NULL = none
     size_t decoded_view_count, decoded_count; // as many as there are, once anything is decoded
     uint64_t decoded_size;                    // bytes of all of them
+    // A warning was given of these textures and images: one is enough.
+    bool *told_textures, *told_images;
 } alpi_gltf_document;
 
 /// Reads and checks the container and the JSON, then every buffer. Sizes are checked before memory

@@ -72,19 +72,58 @@ alp_result alpi_gltf_decode_image(const alpi_gltf_document *document, size_t ind
     return result;
 }
 
+/// Whether a warning was given of an image of the same uri. Not all are compared where very many
+/// are missing.
+static bool is_uri_told(const alpi_gltf_document *document, size_t index)
+{
+    enum { COMPARED_LIMIT = 64 };
+    const char *uri = alpi_gltf_text(alpi_gltf_item(document, "images", index), "uri");
+    size_t compared = 0;
+    for (size_t i = 0; i < index && uri != NULL && compared < COMPARED_LIMIT; i++) {
+        if (document->told_images[i]) {
+            const char *other = alpi_gltf_text(alpi_gltf_item(document, "images", i), "uri");
+            if (other != NULL && strcmp(other, uri) == 0) {
+                return true;
+            }
+            compared++;
+        }
+    }
+    return false;
+}
+
+/// Warns of an image by the context's message, without the names of file and image in it.
+static void warn_of_image(const alpi_gltf_document *document, size_t index)
+{
+    char owner[ALPI_GLTF_OWNER_SIZE], reason[512];
+    const char *message = alp_context_message(document->context);
+    snprintf(owner, sizeof owner, "image %zu", index);
+    const char *const names[] = {document->path, owner};
+    for (int i = 0; i < 2; i++) {
+        const size_t length = strlen(names[i]);
+        if (strncmp(message, names[i], length) == 0 && strncmp(message + length, ": ", 2) == 0) {
+            message += length + 2;
+        }
+    }
+    snprintf(reason, sizeof reason, "%s", message);
+    alpi_gltf_clean(reason);
+    alpi_warn(document->context, "image", owner, "%s; its materials are read without this texture",
+              reason);
+}
+
 alp_result alpi_gltf_read_image(const alpi_gltf_document *document, size_t index, alp_image **image)
 {
+    *image = NULL;
+    if (document->told_images[index]) {
+        return ALP_OK;
+    }
     const alp_result result = alpi_gltf_decode_image(document, index, image);
     if (result == ALP_OK || result == ALP_ERROR_OUT_OF_MEMORY) {
         return result;
     }
-    char owner[ALPI_GLTF_OWNER_SIZE];
-    snprintf(owner, sizeof owner, "image %zu", index);
-    char reason[512];
-    snprintf(reason, sizeof reason, "%s", alp_context_message(document->context));
-    alpi_gltf_clean(reason);
-    alpi_warn(document->context, "image", owner, "%s; its materials are read without this texture",
-              reason);
+    if (!is_uri_told(document, index)) {
+        warn_of_image(document, index);
+    }
+    document->told_images[index] = true;
     return ALP_OK;
 }
 

@@ -150,14 +150,14 @@ alp_result alpi_gltf_read_instances(const alpi_gltf_document *document, size_t n
     uint32_t bad = normalize(list, *count);
     if (bad > 0) {
         alpi_warn(document->context, "rotation", owner,
-                  "%u of its instances have a rotation that is not a quaternion: they are not "
-                  "rotated",
+                  "its instances whose rotation is not a quaternion, and that are not rotated: %u",
                   bad);
     }
     bad = shrink_unplaced(list, *count);
     if (bad > 0) {
         alpi_warn(document->context, "bad-coordinates", owner,
-                  "%u of its instances left out: their translation or scale is not finite", bad);
+                  "its instances left out because their translation or scale is not finite: %u",
+                  bad);
     }
     *instances = list;
     return ALP_OK;

@@ -110,8 +110,10 @@ alp_result alpi_gltf_read_lights(alpi_gltf_reader *reader)
         ALP_TRY(alpi_gltf_size(document, use, "light", owner, &index));
         json_t *object = json_array_get(lights, index);
         if (!json_is_object(object)) {
-            return alpi_gltf_fail(document, owner, "light is %zu, but there are only %zu lights",
-                                  index, json_array_size(lights));
+            char elements[ALPI_GLTF_OWNER_SIZE];
+            return alpi_gltf_fail(
+                document, owner, "light is %zu, but %s", index,
+                alpi_gltf_state_count(json_array_size(lights), "lights", elements));
         }
         snprintf(owner, sizeof owner, "light %zu", index);
         alpi_light *light = &scene->lights[scene->light_count];

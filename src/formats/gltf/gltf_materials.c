@@ -46,21 +46,22 @@ static alp_result read_transform(const source *from, json_t *info, alpi_texture 
 }
 
 /// The image of a texture: of EXT_texture_webp first, which is what the file was made to show.
-static alp_result find_image(const source *from, json_t *texture, const char *owner, size_t *image)
+static alp_result find_image(const source *from, size_t index, const char *owner, size_t *image)
 {
     const alpi_gltf_document *document = from->reader->document;
+    json_t *texture = alpi_gltf_item(document, "textures", index);
     json_t *webp = alpi_gltf_extension(texture, "EXT_texture_webp");
     ALP_TRY(alpi_gltf_index(document, webp, "source", "images", owner, image));
     if (*image == ALPI_GLTF_NONE) {
         ALP_TRY(alpi_gltf_index(document, texture, "source", "images", owner, image));
     }
-    if (*image == ALPI_GLTF_NONE && !from->quiet) {
+    if (*image == ALPI_GLTF_NONE && !from->quiet && !document->told_textures[index]) {
+        document->told_textures[index] = true;
         alpi_warn(from->reader->context, "image", owner,
-                  "has no PNG, JPEG or WebP image%s; the factor of %s is used alone",
+                  "has no PNG, JPEG or WebP image%s; its materials are read without this texture",
                   alpi_gltf_extension(texture, "KHR_texture_basisu") != NULL
                       ? " but one of KHR_texture_basisu, which is not read"
-                      : "",
-                  from->owner);
+                      : "");
     }
     return ALP_OK;
 }
@@ -86,7 +87,7 @@ static alp_result read_texture(const source *from, json_t *object, const char *m
     char owner[ALPI_GLTF_OWNER_SIZE];
     snprintf(owner, sizeof owner, "texture %zu", index);
     ALP_TRY(alpi_gltf_index(document, entry, "sampler", "samplers", owner, &sampler));
-    ALP_TRY(find_image(from, entry, owner, &image));
+    ALP_TRY(find_image(from, index, owner, &image));
     texture->lost = image == ALPI_GLTF_NONE || uv_set >= ALPI_UV_SET_LIMIT;
     if (image == ALPI_GLTF_NONE) {
         return ALP_OK;
@@ -328,6 +329,7 @@ static alp_result read_material(const source *from, alpi_material *material)
     *material = alpi_material_default();
     material->name = name;
     material->double_sided = json_is_true(json_object_get(from->object, "doubleSided"));
+    material->unlit = alpi_gltf_extension(from->object, "KHR_materials_unlit") != NULL;
     json_t *glossiness = alpi_gltf_extension(from->object, "KHR_materials_pbrSpecularGlossiness");
     ALP_TRY(glossiness != NULL ? read_specular_glossiness(from, glossiness, material)
                                : read_metallic_roughness(from, material));

@@ -20,6 +20,7 @@ typedef struct mending {
     const alpi_gltf_document *document;
     alpi_json_span root;
     alpi_edits *edits; // NULL: count only, and warn
+    size_t index;      // of the element
     size_t missing;
     bool failed; // out of memory
 } mending;
@@ -54,9 +55,10 @@ static void tell(const mending *m, const place *at, const char *member, json_t *
                  const char *kind)
 {
     if (m->edits == NULL) {
+        char elements[ALPI_GLTF_OWNER_SIZE];
         alpi_warn(m->document->context, "missing", at->owner,
-                  "%s is %.17g, but there are only %zu %s: it is read without", member,
-                  json_number_value(value), count_elements(m, kind), kind);
+                  "%s is %.17g, but %s: it is read without", member, json_number_value(value),
+                  alpi_gltf_state_count(count_elements(m, kind), kind, elements));
     }
 }
 
@@ -314,6 +316,7 @@ static void mend_texture(mending *m, const place *texture)
     place extensions, form;
     leaving l = {0};
     mend_member(m, texture, "source", "images", &l);
+    m->document->told_textures[m->index] |= l.count > 0;
     mend_member(m, texture, "sampler", "samplers", &l);
     take_out(m, texture, &l);
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
@@ -321,6 +324,7 @@ static void mend_texture(mending *m, const place *texture)
         if (enter(m, texture, "extensions", &extensions) &&
             enter(m, &extensions, forms[i], &form)) {
             mend_member(m, &form, "source", "images", &source);
+            m->document->told_textures[m->index] |= source.count > 0;
             take_out(m, &form, &source);
         }
     }
@@ -353,6 +357,7 @@ static void walk(mending *m)
             if (m->edits != NULL && alpi_json_next(&cursor)) {
                 at.span = cursor.value;
             }
+            m->index = i;
             kinds[k].mend(m, &at);
         }
     }

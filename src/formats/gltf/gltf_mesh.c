@@ -4,6 +4,7 @@
 #include "formats/gltf/gltf_read.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_pose.h"
 #include "formats/gltf/gltf_tree.h"
@@ -31,8 +32,7 @@ typedef struct plan {
     size_t placement_count, placement_capacity;
     uint64_t vertices, triangles, sources, visits;
     bool has_uvs[ALPI_UV_SLOT_COUNT], has_colors;
-    // for one note a file each
-    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
+    alpi_gltf_oddities odd;
 } plan;
 
 // --- sizes --------------------------------------------------------------------------------------
@@ -50,12 +50,13 @@ static alp_result find_attribute(const plan *p, const part *from, const char *na
     alpi_gltf_values values;
     ALP_TRY(alpi_gltf_accessor_check(document, *accessor, &values));
     if (values.components < components[0] || values.components > components[1]) {
-        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u components", name,
-                              *accessor, values.components);
+        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u component%s", name,
+                              *accessor, values.components, alpi_plural(values.components));
     }
     if (values.count != from->source_count) {
-        return alpi_gltf_fail(document, owner, "%s (accessor %zu) has %u elements, POSITION has %u",
-                              name, *accessor, values.count, from->source_count);
+        return alpi_gltf_fail(
+            document, owner, "%s (accessor %zu) has %u element%s, POSITION has %u", name, *accessor,
+            values.count, alpi_plural(values.count), from->source_count);
     }
     return ALP_OK;
 }
@@ -106,8 +107,8 @@ static alp_result count_sources(const plan *p, part *from, const char *owner)
 {
     const alpi_gltf_document *document = p->reader->document;
     json_t *attributes = json_object_get(from->primitive, "attributes");
-    if (!json_is_object(attributes)) {
-        return alpi_gltf_fail(document, owner, "attributes is missing");
+    if (attributes != NULL && !json_is_object(attributes)) {
+        return alpi_gltf_fail(document, owner, "attributes must be an object");
     }
     ALP_TRY(alpi_gltf_index(document, attributes, "POSITION", "accessors", owner, &from->position));
     alpi_gltf_values values = {0};
@@ -141,7 +142,7 @@ static alp_result find_material(plan *p, const part *from, const char *owner, al
         surface->material = (uint32_t)material;
         p->reader->material_used[material] = true;
     }
-    p->without_material += material == ALPI_GLTF_NONE;
+    p->odd.without_material += material == ALPI_GLTF_NONE;
     return ALP_OK;
 }
 
@@ -167,6 +168,20 @@ static alp_result add_surface(plan *p, const part *from, alpi_surface *surface)
     return ALP_OK;
 }
 
+/// Whether a primitive has no attribute, vertex or triangle, and is left out with a warning.
+static bool is_empty(plan *p, const part *from, const alpi_surface *surface, bool drawable)
+{
+    const bool bare = json_object_size(json_object_get(from->primitive, "attributes")) == 0;
+    const bool placed = from->position != ALPI_GLTF_NONE;
+    const bool empty = bare || (placed && from->source_count == 0) ||
+                       (placed && drawable && surface->triangle_count == 0);
+    if (empty && p->odd.empty++ == 0) {
+        p->odd.first_empty[0] = surface->mesh;
+        p->odd.first_empty[1] = surface->primitive;
+    }
+    return empty;
+}
+
 static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surface, size_t placement)
 {
     char owner[ALPI_GLTF_OWNER_SIZE];
@@ -181,14 +196,20 @@ static alp_result plan_primitive(plan *p, json_t *primitive, alpi_surface surfac
     bool drawable;
     ALP_TRY(alpi_gltf_primitive_count(p->reader->document, primitive, owner, from.source_count,
                                       &surface.triangle_count, &drawable));
-    ALP_TRY(find_material(p, &from, owner, &surface));
-    ALP_TRY(find_attributes(p, &from, owner, &surface));
-    p->not_triangles += !drawable;
-    p->without_position += drawable && from.position == ALPI_GLTF_NONE;
-    if (!drawable || from.position == ALPI_GLTF_NONE) {
+    if (is_empty(p, &from, &surface, drawable)) {
         return ALP_OK;
     }
-    p->morphed += json_array_size(json_object_get(primitive, "targets")) > 0;
+    p->odd.not_triangles += !drawable;
+    if (from.position == ALPI_GLTF_NONE) {
+        p->odd.without_position += drawable;
+        return ALP_OK;
+    }
+    ALP_TRY(find_material(p, &from, owner, &surface));
+    ALP_TRY(find_attributes(p, &from, owner, &surface));
+    if (!drawable) {
+        return ALP_OK;
+    }
+    p->odd.morphed += json_array_size(json_object_get(primitive, "targets")) > 0;
     surface.normals_generated = from.normal == ALPI_GLTF_NONE;
     uint64_t vertices =
         surface.normals_generated ? 3 * (uint64_t)surface.triangle_count : from.source_count;
@@ -215,7 +236,7 @@ static alp_result plan_mesh(plan *p, json_t *primitives, alpi_surface surface, s
 static alp_result plan_instances(plan *p, json_t *primitives, alpi_surface surface,
                                  const alpi_gltf_instance *instances, uint32_t count)
 {
-    p->instanced++;
+    p->odd.instanced++;
     for (uint32_t i = 0; i < count; i++) {
         void *items = p->placements;
         alp_result result = alpi_grow(p->reader->context, &items, &p->placement_capacity,
@@ -255,7 +276,7 @@ static alp_result plan_node(plan *p, uint32_t node)
     size_t mesh;
     ALP_TRY(alpi_gltf_index(document, object, "mesh", "meshes", owner, &mesh));
     if (mesh == ALPI_GLTF_NONE || p->reader->hidden[node]) {
-        p->hidden += mesh != ALPI_GLTF_NONE;
+        p->odd.hidden += mesh != ALPI_GLTF_NONE;
         return ALP_OK;
     }
     json_t *primitives = json_object_get(alpi_gltf_item(document, "meshes", mesh), "primitives");
@@ -267,7 +288,7 @@ static alp_result plan_node(plan *p, uint32_t node)
     surface.mirrored = mat4_determinant3(&p->reader->world[node]) < 0.0;
     mat4_axes(&p->reader->world[node], surface.axes);
     if (json_object_get(object, "skin") != NULL) {
-        p->skinned++;
+        p->odd.skinned++;
         memset(surface.axes, 0, sizeof surface.axes); // joints place it, not its node
         ALP_TRY(find_mirrored(p, &surface));
     }
@@ -335,7 +356,10 @@ static alp_result fill_triangles(const plan *p, const part *from, const alpi_sur
     alpi_release(p->reader->context, corners);
     if (leftover > 0) {
         alpi_warn(p->reader->context, "leftover-indices", owner,
-                  "%u indices at the end make no triangle and are ignored", leftover);
+                  "%u %s at the end %s no triangle and %s ignored", leftover,
+                  alpi_one_or_many(leftover, "index", "indices"),
+                  alpi_one_or_many(leftover, "makes", "make"),
+                  alpi_one_or_many(leftover, "is", "are"));
     }
     return ALP_OK;
 }
@@ -462,7 +486,7 @@ static alp_result fill_uvs(const plan *p, const part *from, const alpi_surface *
         char name[ALPI_GLTF_OWNER_SIZE];
         alpi_gltf_slot_name(set, name, sizeof name);
         alpi_warn(p->reader->context, "bad-uvs", surface->name,
-                  "%u values of %s are not finite: 0 is used", bad, name);
+                  "values of %s that are not finite, and count as 0: %u", name, bad);
     }
     return ALP_OK;
 }
@@ -528,45 +552,6 @@ static alp_result move_to_origin(plan *p)
 
 // --- all together -------------------------------------------------------------------------------
 
-static void tell_oddities(const plan *p)
-{
-    alp_context *context = p->reader->context;
-    const char *path = p->reader->document->path;
-    if (p->not_triangles > 0) {
-        alpi_note(context, "not-triangles", path, "primitives of points or lines left out: %u",
-                  p->not_triangles);
-    }
-    if (p->without_position > 0) {
-        alpi_note(context, "no-positions", path, "primitives without POSITION left out: %u",
-                  p->without_position);
-    }
-    if (p->without_material > 0) {
-        alpi_note(context, "no-material", path,
-                  "primitives without a material, read as a grey of albedo 0.5: %u",
-                  p->without_material);
-    }
-    if (p->hidden > 0) {
-        alpi_note(
-            context, "hidden", path,
-            "%u nodes with meshes are hidden (KHR_node_visibility): they neither cast shadows "
-            "nor get a map, and stay in the file",
-            p->hidden);
-    }
-    if (p->skinned > 0) {
-        alpi_note(context, "skin", path, "%u skinned nodes are read in the pose of their joints",
-                  p->skinned);
-    }
-    if (p->morphed > 0) {
-        alpi_note(context, "morph", path,
-                  "primitives with morph targets, read with their default weights: %u", p->morphed);
-    }
-    if (p->instanced > 0) {
-        alpi_note(context, "instancing", path,
-                  "%u nodes have instances of their mesh (EXT_mesh_gpu_instancing), %zu in all",
-                  p->instanced, p->placement_count);
-    }
-}
-
 static alp_result read_surfaces(plan *p)
 {
     alp_scene *scene = p->reader->scene;
@@ -579,7 +564,8 @@ static alp_result read_surfaces(plan *p)
         alpi_gltf_check_sets(p->reader, &scene->surfaces[s], p->parts[s].uvs);
     }
     ALP_TRY(move_to_origin(p));
-    tell_oddities(p);
+    p->odd.placement_count = p->placement_count;
+    alpi_gltf_tell_oddities(p->reader, &p->odd);
     return ALP_OK;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The triangles of a primitive: lists, strips and fans, indexed or not (glTF 2.0, section 3.7.2).
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_tree.h"
 
@@ -86,9 +87,10 @@ static alp_result fill_triangles(const alpi_gltf_document *document, const char 
             uint32_t vertex =
                 values.bytes == NULL ? place[k] : alpi_gltf_values_index(&values, place[k]);
             if (vertex >= vertex_count) {
-                result =
-                    alpi_gltf_fail(document, owner, "index %u is %u, but there are %u vertices",
-                                   place[k], vertex, vertex_count);
+                result = alpi_gltf_fail(document, owner, "index %u is %u, but there %s %u %s",
+                                        place[k], vertex,
+                                        alpi_one_or_many(vertex_count, "is", "are"), vertex_count,
+                                        alpi_one_or_many(vertex_count, "vertex", "vertices"));
             }
             triangles[i][k] = vertex;
         }

@@ -123,6 +123,12 @@ alp_result alpi_gltf_read_pose(const alp_scene *scene, uint32_t animation, doubl
     const alp_result result = read_pose(&reader, animation, seconds, posed);
     alpi_hush(scene->context, false);
     alpi_gltf_release_moments(&reader);
+    if (result == ALP_OK && reader.unread_channels > 0) {
+        alpi_warn(scene->context, "animation", document->path,
+                  "channels that the pose leaves out, as they move neither transforms nor morph "
+                  "targets: %u",
+                  reader.unread_channels);
+    }
     if (result == ALP_OK) {
         (*posed)->metals_black = scene->metals_black;
         const uint64_t hash =

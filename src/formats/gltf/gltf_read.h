@@ -25,6 +25,7 @@ typedef struct alpi_gltf_reader {
     const alp_scene *base;
     struct alpi_gltf_moment *moments; // [moment_count] of all nodes
     size_t moment_count;
+    uint32_t unread_channels; // of that animation, which move something else than a node
 } alpi_gltf_reader;
 
 /// gltf_nodes.c: checks that the nodes are trees and fills world and order.
@@ -46,6 +47,14 @@ void alpi_gltf_check_sets(const alpi_gltf_reader *reader, const alpi_surface *su
                           const size_t accessors[ALPI_UV_SLOT_COUNT]);
 /// gltf_mesh.c: surfaces, vertices and triangles; marks the materials that they use.
 alp_result alpi_gltf_read_meshes(alpi_gltf_reader *reader);
+/// Counts of primitives and nodes.
+typedef struct alpi_gltf_oddities {
+    uint32_t empty, first_empty[2]; // the first one's mesh and primitive
+    uint32_t not_triangles, without_material, without_position, morphed, skinned, instanced, hidden;
+    size_t placement_count; // instances of all nodes
+} alpi_gltf_oddities;
+/// gltf_oddities.c: warns of empty primitives, and notes the other kinds.
+void alpi_gltf_tell_oddities(const alpi_gltf_reader *reader, const alpi_gltf_oddities *odd);
 /// The attribute whose coordinates are kept in a slot.
 void alpi_gltf_slot_name(uint32_t slot, char *name, size_t size);
 /// gltf_images.c: scene.images, one for each of the file; decodes those that used materials need.

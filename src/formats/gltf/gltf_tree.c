@@ -68,14 +68,28 @@ alp_result alpi_gltf_size(const alpi_gltf_document *document, json_t *object, co
     return alpi_gltf_size_or(document, object, member, owner, 0, value);
 }
 
+const char *alpi_gltf_state_count(size_t count, const char *kind, char text[ALPI_GLTF_OWNER_SIZE])
+{
+    const size_t length = strlen(kind), ending = strcmp(kind, "meshes") == 0 ? 2 : 1;
+    if (count == 1) {
+        snprintf(text, ALPI_GLTF_OWNER_SIZE, "there is only 1 %.*s", (int)(length - ending), kind);
+    } else if (count == 0) {
+        snprintf(text, ALPI_GLTF_OWNER_SIZE, "there are no %s", kind);
+    } else {
+        snprintf(text, ALPI_GLTF_OWNER_SIZE, "there are only %zu %s", count, kind);
+    }
+    return text;
+}
+
 alp_result alpi_gltf_index(const alpi_gltf_document *document, json_t *object, const char *member,
                            const char *kind, const char *owner, size_t *index)
 {
     ALP_TRY(alpi_gltf_size_or(document, object, member, owner, ALPI_GLTF_NONE, index));
     size_t count = alpi_gltf_count(document, kind);
     if (*index != ALPI_GLTF_NONE && *index >= count) {
-        return alpi_gltf_fail(document, owner, "%s is %zu, but there are only %zu %s", member,
-                              *index, count, kind);
+        char elements[ALPI_GLTF_OWNER_SIZE];
+        return alpi_gltf_fail(document, owner, "%s is %zu, but %s", member, *index,
+                              alpi_gltf_state_count(count, kind, elements));
     }
     return ALP_OK;
 }

@@ -27,6 +27,8 @@ alp_result alpi_gltf_number(const alpi_gltf_document *document, json_t *object, 
 /// An array of exactly `count` numbers; *values stay as they are when absent.
 alp_result alpi_gltf_numbers(const alpi_gltf_document *document, json_t *object, const char *member,
                              const char *owner, size_t count, double *values);
+/// How many elements of a kind there are, in words: "there is only 1 mesh". @return text
+const char *alpi_gltf_state_count(size_t count, const char *kind, char text[ALPI_GLTF_OWNER_SIZE]);
 /// An index that must be there.
 alp_result alpi_gltf_needed_index(const alpi_gltf_document *document, json_t *object,
                                   const char *member, const char *kind, const char *owner,

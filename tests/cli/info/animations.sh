@@ -7,6 +7,7 @@ alpenglow info slide.gltf --animation-time 2 --animation slide | grep bounds
 alpenglow info slide.gltf --json | grep -A 12 '"animations"'
 sed 's/"path":"rotation"/"path":"pointer"/' slide.gltf >pointer.gltf
 alpenglow info pointer.gltf 2>&1 | grep animation
+alpenglow info pointer.gltf --animation-time 1 --animation turn 2>&1 | grep "\[animation"
 echo "== refused"
 alpenglow info slide.gltf --animation-time 1 --animation 2
 echo "exit $?"

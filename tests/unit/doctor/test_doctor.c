@@ -120,6 +120,49 @@ TEST_WITH_CONTEXT(nothing_to_bake_is_an_error, 1)
     alp_scene_destroy(scene);
 }
 
+/// Triangles without area have one finding, which counts them all.
+TEST_WITH_CONTEXT(triangles_without_area, 1)
+{
+    static const uint32_t half[2][3] = {{0, 1, 2}, {0, 1, 1}};
+    static const char *const words[] = {"1 of 2 triangles has no area",
+                                        "1 of 2 triangles has no area (3 in 2 surfaces)"};
+    alp_mesh meshes[3] = {square(), square(), square()};
+    meshes[1].indices = half[0];
+    meshes[2].positions = POINT[0];
+    for (uint32_t count = 1; count <= 3; count++) {
+        alp_scene *scene = make(context, meshes, count);
+        alp_diagnosis *d = diagnose(scene);
+        const alp_finding f = find(d, ALP_FINDING_ZERO_AREA);
+        assert_int_equal(f.count, count == 1 ? 0 : count == 2 ? 1 : 3);
+        if (count > 1) {
+            assert_int_equal(f.severity, ALP_SEVERITY_NOTE);
+            assert_int_equal(f.index, 1);
+            assert_string_equal(f.what, words[count - 2]);
+        }
+        alp_diagnosis_destroy(d);
+        alp_scene_destroy(scene);
+    }
+}
+
+TEST_WITH_CONTEXT(unlit_materials, 1)
+{
+    const alp_mesh mesh = square();
+    alp_scene *scene = make(context, &mesh, 1);
+    assert_true(scene->material_count > 0 && scene->surfaces[0].material != ALPI_NONE);
+    scene->materials[scene->surfaces[0].material].unlit = true;
+    has_only(scene, ALP_FINDING_UNLIT, 0, ANY);
+    // a bake has warned of it
+    const alp_report_finding told = {"unlit", "out.glb", "1 material is unlit"};
+    alp_diagnosis_options options = alp_diagnosis_options_default();
+    options.messages = &told;
+    options.message_count = 1;
+    alp_diagnosis *d = NULL;
+    ASSERT_OK(context, alp_scene_diagnose(scene, &options, &d));
+    assert_int_equal(alp_diagnosis_finding_count(d), 1);
+    alp_diagnosis_destroy(d);
+    alp_scene_destroy(scene);
+}
+
 /// Two squares, the second of other corners or in another order; coordinates are left out, as two
 /// that lie in one place are another finding.
 static alp_scene *make_twins(alp_context *context, const float (*positions)[3],
@@ -490,7 +533,7 @@ TEST(the_manual_says_the_same)
         }
         assert_ptr_equal(alpi_finding_words_by_code(w->code), w);
     }
-    assert_int_equal(known, 44); // of the header
+    assert_int_equal(known, 45); // of the header
     test_free(text);
     free(bytes);
 }

@@ -72,8 +72,8 @@ static void leave_out_controllers(const alpi_collada_patcher *p, const uint32_t 
     }
     if (left_out > 0) {
         alpi_warn(p->context, "skin", p->document->path,
-                  "%u deformed meshes have several instances with different maps: they are "
-                  "written without a map; bake them one by one with --only",
+                  "deformed meshes with several instances whose maps differ, written without a "
+                  "map: %u; bake them one by one with --only",
                   left_out);
     }
 }

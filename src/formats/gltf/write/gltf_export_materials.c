@@ -4,6 +4,7 @@
 #include "formats/gltf/write/gltf_export.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/images/images.h"
 
 #include <math.h>
@@ -221,7 +222,8 @@ static alp_result add_made_images(alpi_gltf_exporter *e, const bool *used)
     }
     if (heights > 0) {
         alpi_note(e->context, "mtl-lost", "map_Bump of heights",
-                  "glTF has no place for it: %u materials lose it; an .obj keeps it", heights);
+                  "glTF has no place for it: %u material%s it; an .obj keeps it", heights,
+                  alpi_one_or_many(heights, " loses", "s lose"));
     }
     return ALP_OK;
 }

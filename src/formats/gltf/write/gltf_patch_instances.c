@@ -151,7 +151,7 @@ static alp_result expand(alpi_gltf_patcher *p, size_t node)
     p->data.failed |= children.failed;
     p->expanded_count++;
     alpi_note(p->context, "instancing", owner,
-              "its %u instances become nodes, because each has its own map", count);
+              "its instances become nodes, because each has its own map: %u", count);
     alpi_bytes_destroy(&children);
     alpi_release(p->context, list);
     return ALP_OK;

@@ -4,6 +4,7 @@
 #include "formats/gltf/write/gltf_patch_material.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/gltf/write/gltf_appends.h"
 #include "formats/gltf/write/gltf_patch_plan.h"
@@ -302,9 +303,9 @@ static void warn_of_unlit(const alpi_gltf_patcher *p, const needs *all)
     }
     if (count > 0) {
         alpi_warn(p->context, "unlit", p->document->path,
-                  "%zu materials are unlit (KHR_materials_unlit): viewers will not show their "
+                  "%zu material%s unlit (KHR_materials_unlit): viewers will not show the "
                   "occlusion map; take the extension out, or bake --atlas vertex",
-                  count);
+                  count, alpi_one_or_many(count, " is", "s are"));
     }
 }
 
@@ -318,9 +319,10 @@ alp_result alpi_patcher_materials(alpi_gltf_patcher *p)
     }
     if (result == ALP_OK && p->cleared_count > 0) {
         alpi_note(p->context, "occlusion-removed", p->document->path,
-                  "%zu materials lose their own occlusion map, by which viewers would darken the "
+                  "%zu material%s own occlusion map, by which viewers would darken the "
                   "light map again; --maps ao,light bakes one beside it",
-                  p->cleared_count);
+                  p->cleared_count,
+                  alpi_one_or_many(p->cleared_count, " loses its", "s lose their"));
     }
     alpi_release(p->context, all.items);
     alpi_release(p->context, all.has_other_users);

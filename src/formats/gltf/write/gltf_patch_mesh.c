@@ -4,6 +4,7 @@
 #include "formats/gltf/write/gltf_patch_mesh.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_accessor.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_compression.h"
@@ -349,8 +350,9 @@ static alp_result read_triangles(alpi_gltf_patcher *p, alpi_gltf_rewrite *r)
     ALP_TRY(alpi_gltf_primitive_triangles(p->document, r->primitive, r->owner, r->vertex_count,
                                           &r->indices, &r->triangle_count, &leftover));
     if (r->triangle_count != r->surface->triangle_count) {
-        return alpi_gltf_fail(p->document, r->owner, "has %u triangles, but %u were read",
-                              r->triangle_count, r->surface->triangle_count);
+        return alpi_gltf_fail(p->document, r->owner, "has %u triangle%s, but %u were read",
+                              r->triangle_count, alpi_plural(r->triangle_count),
+                              r->surface->triangle_count);
     }
     return ALP_OK;
 }
@@ -443,8 +445,8 @@ alp_result alpi_patcher_meshes(alpi_gltf_patcher *p)
     }
     if (p->plain_count > 0) {
         alpi_warn(p->context, "compression", p->document->path,
-                  "%zu compressed primitives are written uncompressed, because they gain an "
-                  "attribute or are split",
+                  "compressed primitives, written uncompressed because they gain an attribute or "
+                  "are split: %zu",
                   p->plain_count);
     }
     return ALP_OK;

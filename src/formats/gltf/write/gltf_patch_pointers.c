@@ -2,6 +2,7 @@
 // Animations of materials (KHR_animation_pointer): a channel that moves a material which was copied
 // gets a second one for each copy.
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/gltf/write/gltf_patch_material.h"
 
@@ -83,9 +84,9 @@ void alpi_patcher_follow_pointers(alpi_gltf_patcher *p)
     }
     if (moved > 0 && p->patch->light != NULL && p->patch->light->form == ALPI_LIGHT_FORM_EMISSIVE) {
         alpi_warn(p->context, "animation", p->document->path,
-                  "%zu channels move materials (KHR_animation_pointer), and light as emission is "
+                  "%zu channel%s materials (KHR_animation_pointer), and light as emission is "
                   "baked with them at rest: their colours would show over it; leave the channels "
                   "out, or use --lightmap-as moz",
-                  moved);
+                  moved, alpi_one_or_many(moved, " moves", "s move"));
     }
 }

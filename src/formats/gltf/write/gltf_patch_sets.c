@@ -327,9 +327,9 @@ void alpi_patcher_warn_of_sets(const alpi_gltf_patcher *p)
     if (count > 0) {
         alpi_warn(
             p->context, "uv-sets", p->document->path,
-            "the map of %zu primitives uses a coordinate set beyond TEXCOORD_3, because they "
-            "have four already; few viewers and not this program read it; remove unused sets, or"
-            " bake the original file",
+            "primitives whose map uses a coordinate set beyond TEXCOORD_3, because they have four "
+            "already: %zu; few viewers and not this program read it; remove unused sets, or bake "
+            "the original file",
             count);
     }
 }

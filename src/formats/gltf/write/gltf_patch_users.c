@@ -4,6 +4,7 @@
 #include "formats/gltf/write/gltf_patch_users.h"
 
 #include "base/memory.h"
+#include "base/plural.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/gltf/write/gltf_patch_material.h"
 #include "formats/gltf/write/gltf_patch_plan.h"
@@ -131,9 +132,10 @@ void alpi_patcher_warn_of_variants(alpi_gltf_patcher *p)
     print_names(p, left, &found, &names);
     if (found > 0 && !names.failed) {
         alpi_warn(p->context, "variants", p->document->path,
-                  "%zu materials of variants (KHR_materials_variants) get no map: %s; occlusion "
-                  "with --ao-into separate, and light with --lightmap-as moz or extras, go to all",
-                  found, (const char *)names.bytes);
+                  "%zu material%s of variants (KHR_materials_variants) without a map: %s; "
+                  "occlusion with --ao-into separate, and light with --lightmap-as moz or extras, "
+                  "go to all",
+                  found, alpi_plural(found), (const char *)names.bytes);
     }
     p->data.failed |= names.failed;
     alpi_bytes_destroy(&names);

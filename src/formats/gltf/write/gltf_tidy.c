@@ -266,8 +266,8 @@ static alp_result tidy(alpi_gltf_tidying *t, const alpi_gltf_leftovers *from)
     ALP_TRY(find_read(t, from->document));
     if (t->references.points_at_materials && from->copy_count > 0) {
         alpi_warn(t->context, "copies", from->document->path,
-                  "an extension that is not known points at materials (\"/materials/0/...\"), of "
-                  "which this bake made %zu copies: it does not reach the copies",
+                  "an extension that is not known points at materials (\"/materials/0/...\"), and "
+                  "does not reach the copies that this bake made of them: %zu",
                   from->copy_count);
     }
     for (int k = 0; k < KINDS && !t->references.has_pointers; k++) {

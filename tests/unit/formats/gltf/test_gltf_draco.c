@@ -298,7 +298,7 @@ TEST_WITH_CONTEXT(accessors_that_do_not_fit, 1)
         {"\"count\":6348", "\"count\":6345", "hold another number of triangles"},
         {"\"type\":\"VEC2\"", "\"type\":\"VEC4\"", "bufferView 0 holds no attribute 2 like"},
         {"\"TEXCOORD_0\":2}}", "\"TEXCOORD_0\":7}}", "bufferView 0 holds no attribute 7 like"},
-        {"\"bufferView\":0,\"attr", "\"bufferView\":9,\"attr", "bufferView is 9, but there are"},
+        {"\"bufferView\":0,\"attr", "\"bufferView\":9,\"attr", "bufferView is 9, but there is"},
         {"\"indices\":3", "\"indexes\":3", "is compressed, but has no indices"},
     };
     size_t size;

@@ -95,7 +95,7 @@ TEST_WITH_CONTEXT(faults_of_data_stay_refused, 1)
 {
     static const char *const cases[][2] = {
         {"'nodes':[{'mesh':0}],'meshes':[{'primitives':[{'attributes':{'POSITION':3}}]}]",
-         "POSITION is 3, but there are only 1 accessors"},
+         "POSITION is 3, but there is only 1 accessor"},
         {"'nodes':[{'mesh':0}],'scene':2,'scenes':[{'nodes':[0]}]," MESH, "scene is 2"},
         {"'nodes':[{'mesh':'x'}]," MESH, "mesh must be a non-negative integer"},
         {"'nodes':[{'mesh':0,'children':[0]}]," MESH, "is its own ancestor"},
@@ -107,6 +107,83 @@ TEST_WITH_CONTEXT(faults_of_data_stay_refused, 1)
         assert_int_equal(test_gltf_scene(context, json, corners, sizeof corners, &scene),
                          ALP_ERROR_INVALID_DATA);
         test_message_has(context, cases[i][1]);
+    }
+}
+
+/// How often a word stands in the log.
+static int count_in_log(const char *word)
+{
+    int count = 0;
+    for (const char *at = strstr(test_log_text(), word); at != NULL; at = strstr(at + 1, word)) {
+        count++;
+    }
+    return count;
+}
+
+/// One texture that is not there costs one warning, whatever reads it and however often.
+TEST_WITH_CONTEXT(a_missing_texture_costs_one_warning, 1)
+{
+    static const char *const cases[] = {
+        "'textures':[{'source':6}],",
+        "'textures':[{}],",
+        "'textures':[{'source':0}],'images':[{'uri':'none.png'}],",
+        "'textures':[{'source':0},{'source':1},{'source':2}],'images':[{'uri':'none.png'},"
+        "{'uri':'none.png'},{'uri':'none.png'}],",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char members[2048];
+        snprintf(members, sizeof members,
+                 "'nodes':[{'mesh':0}],%s'materials':[{'emissiveTexture':{'index':0},"
+                 "'occlusionTexture':{'index':%d},'pbrMetallicRoughness':{'baseColorTexture':"
+                 "{'index':%d},'metallicRoughnessTexture':{'index':0}}}]," MESH_OF("'material':0"),
+                 cases[i], i == 3 ? 1 : 0, i == 3 ? 2 : 0);
+        alp_scene *scene = read(context, members);
+        for (uint32_t k = 0; k < scene->image_count; k++) {
+            alp_image *image = NULL;
+            ASSERT_OK(context, scene->read_image(scene, k, &image)); // as conversions do
+            assert_null(image);
+        }
+        const int told =
+            count_in_log("missing ") + count_in_log("image image") + count_in_log("image texture");
+        if (told != 1) {
+            fail_msg("case %zu: %d warnings: %s", i, told, test_log_text());
+        }
+        alp_scene_destroy(scene);
+    }
+}
+
+/// Empty primitives cost themselves: the mesh of the second node stays.
+TEST_WITH_CONTEXT(empty_primitives_cost_themselves, 1)
+{
+    static const char *const cases[] = {
+        "{}",
+        "{'attributes':{}}",
+        "{'attributes':{'POSITION':1}}",
+        "{'attributes':{'POSITION':1,'NORMAL':0}}",
+        "{'attributes':{'POSITION':1},'indices':2}",
+        "{'attributes':{'POSITION':0},'indices':2}",
+        "{'attributes':{'POSITION':1},'mode':0}",
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char json[2048];
+        snprintf(json, sizeof json,
+                 "{" ASSET "'buffers':[{'byteLength':36}],'bufferViews':[{'buffer':0,"
+                 "'byteLength':36}],'accessors':[{'bufferView':0,'componentType':5126,"
+                 "'type':'VEC3','count':3},{'bufferView':0,'componentType':5126,'type':'VEC3',"
+                 "'count':0},{'bufferView':0,'componentType':5123,'type':'SCALAR','count':0}],"
+                 "'nodes':[{'mesh':0},{'mesh':1}],'meshes':[{'primitives':[%s]},"
+                 "{'primitives':[{'attributes':{'POSITION':0}}]}]}",
+                 cases[i]);
+        alp_scene *scene = NULL;
+        test_log_clear();
+        ASSERT_OK(context, test_gltf_scene(context, json, corners, sizeof corners, &scene));
+        assert_int_equal(scene->surface_count, 1);
+        assert_int_equal(scene->usable_count, 1);
+        if (strstr(test_log_text(), "empty-geometry mesh 0, primitive 0: primitives without a "
+                                    "triangle are left out, this one first: 1") == NULL) {
+            fail_msg("case %zu: \"%s\"", i, test_log_text());
+        }
+        alp_scene_destroy(scene);
     }
 }
 
@@ -131,7 +208,7 @@ TEST_WITH_CONTEXT(hidden_nodes_show_nothing, 1)
     assert_string_equal(scene->surfaces[0].name, "seen");
     assert_int_equal(scene->light_count, 1);
     assert_int_equal(scene->camera_count, 1);
-    assert_non_null(strstr(test_log_text(), "2 nodes with meshes are hidden"));
+    assert_non_null(strstr(test_log_text(), "and stay in the file: 2"));
     alp_scene_destroy(scene);
 }
 

@@ -2,6 +2,7 @@
 // What a small glTF asset becomes as a scene, number by number.
 #include "test_gltf.h"
 
+#include "base/memory.h"
 #include "formats/formats.h"
 #include "formats/gltf/gltf_read.h"
 
@@ -473,7 +474,7 @@ TEST_WITH_CONTEXT(oddities_are_told, 1)
                       "'nodes':[{'name':'a\\u001b[2Jb','mesh':0,'skin':0},{'mesh':0,'extensions':"
                       "{'EXT_mesh_gpu_instancing':{'attributes':{'SCALE':0}}}}],"
                       "'skins':[{'joints':[0]}],'meshes':[{'primitives':[{" NORMALS
-                      ",'indices':4,'targets':[{}]},{'attributes':{}}]}]");
+                      ",'indices':4,'targets':[{}]},{'attributes':{'NORMAL':1}}]}]");
     assert_int_equal(scene->surface_count, 1 + 4);
     assert_int_equal(scene->triangle_count, 2 * (1 + 4));
     static const char *const codes[] = {"skin", "morph", "instancing", "no-positions"};
@@ -494,4 +495,58 @@ TEST_WITH_CONTEXT(input_hash, 1)
     alp_scene_destroy(a);
     alp_scene_destroy(b);
     alp_scene_destroy(c);
+}
+
+// --- encodings -----------------------------------------------------------------------------------
+
+/// A text of ASCII in units of `width` bytes. @param first number of the unit's byte with the
+/// letter
+static alp_result read_wide(alp_context *context, const char *text, size_t width, size_t first,
+                            const char *mark, size_t mark_size)
+{
+    const size_t length = strlen(text), size = mark_size + width * length;
+    uint8_t *bytes = alpi_allocate(context, size, 1);
+    assert_non_null(bytes);
+    memcpy(bytes, mark, mark_size);
+    for (size_t i = 0; i < length; i++) {
+        bytes[mark_size + width * i + first] = (uint8_t)text[i];
+    }
+    alpi_gltf_document *document = NULL;
+    const alp_result result =
+        alpi_gltf_document_parse(context, "wide.gltf", bytes, size, &document);
+    alpi_gltf_document_destroy(document);
+    return result;
+}
+
+TEST_WITH_CONTEXT(encodings_of_json, 1)
+{
+    static const struct {
+        size_t width, first;
+        const char *mark;
+        size_t mark_size;
+        const char *name;
+    } cases[] = {{2, 0, "\xff\xfe", 2, "UTF-16,"},     {2, 1, "\xfe\xff", 2, "UTF-16,"},
+                 {2, 0, "", 0, "UTF-16LE,"},           {2, 1, "", 0, "UTF-16BE,"},
+                 {4, 0, "\xff\xfe\0\0", 4, "UTF-32,"}, {4, 3, "\0\0\xfe\xff", 4, "UTF-32,"},
+                 {4, 0, "", 0, "UTF-32LE,"},           {4, 3, "", 0, "UTF-32BE,"}};
+    static const char *const texts[] = {"{\"asset\":{\"version\":\"2.0\"}}",
+                                        "\n{\"asset\":{\"version\":\"2.0\"}}"};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        for (size_t k = 0; k < 2; k++) {
+            assert_int_equal(read_wide(context, texts[k], cases[i].width, cases[i].first,
+                                       cases[i].mark, cases[i].mark_size),
+                             ALP_ERROR_INVALID_DATA);
+            test_message_has(context, cases[i].name);
+            test_message_has(context, "save it as UTF-8");
+        }
+    }
+    ASSERT_OK(context, read_wide(context, texts[0], 1, 0, "\xef\xbb\xbf", 3)); // UTF-8
+    static const char film[] = "\0\0\0\x20"
+                               "ftyp";
+    uint8_t *bytes = alpi_allocate(context, sizeof film, 1);
+    memcpy(bytes, film, sizeof film);
+    alpi_gltf_document *document = NULL;
+    assert_int_equal(alpi_gltf_document_parse(context, "film.gltf", bytes, sizeof film, &document),
+                     ALP_ERROR_INVALID_DATA);
+    test_message_has(context, "is not glTF");
 }
