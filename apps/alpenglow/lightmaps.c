@@ -48,10 +48,9 @@ static bool holds_emitted_light(const alp_scene *scene)
 /// The first given option that asks for a new map, or NULL.
 static const char *option_of_bake(const command_line *a)
 {
-    static const option_id of_bake[] = {OPTION_QUALITY, OPTION_ERROR,        OPTION_GATHER,
-                                        OPTION_BOUNCES, OPTION_SUN,          OPTION_LAMP,
-                                        OPTION_SPOT,    OPTION_SIZE,         OPTION_ATLAS,
-                                        OPTION_STITCH,  OPTION_TEXEL_SAMPLES};
+    static const option_id of_bake[] = {
+        OPTION_QUALITY, OPTION_ERROR, OPTION_GATHER, OPTION_BOUNCES, OPTION_LAMP,
+        OPTION_SPOT,    OPTION_SIZE,  OPTION_ATLAS,  OPTION_STITCH,  OPTION_TEXEL_SAMPLES};
     return option_find_given(a, of_bake, sizeof of_bake / sizeof *of_bake);
 }
 

@@ -18,6 +18,7 @@ static const option rows[] = {
              "current folder."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
+     .common = IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "-o",
@@ -162,7 +163,7 @@ static const option rows[] = {
     {.id = OPTION_FORCE,
      .commands =
          RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW,
-     .common = IN_BAKE,
+     .common = IN_BAKE | IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",

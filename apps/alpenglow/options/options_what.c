@@ -19,6 +19,7 @@ static const option rows[] = {
      .help = "Side of an atlas page, such as 1024 or 1k. Time and memory grow with its square."},
     {.id = OPTION_SIZE,
      .commands = IN_RENDER | IN_VIEW,
+     .common = IN_RENDER,
      .group = GROUP_LIGHT,
      .kind = KIND_WHOLE,
      .name = "--size",
