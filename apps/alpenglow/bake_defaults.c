@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bake_defaults.h"
 
-#include "messages.h"
 #include "output.h"
+#include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
 

@@ -5,8 +5,8 @@
 #include "bake_options.h"
 
 #include "bake_defaults.h"
-#include "lighting.h"
 #include "output.h"
+#include "setup/lighting.h"
 
 #include <string.h>
 

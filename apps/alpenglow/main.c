@@ -2,7 +2,7 @@
 // The main program: finds the command and runs it.
 #include "commands/commands.h"
 #include "compare_assets.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "streams.h"
 
 #include <alpenglow/alpenglow.h>

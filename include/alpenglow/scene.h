@@ -35,8 +35,8 @@ ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, con
                                                        const char *choice, alp_scene **scene);
 
 /// Whether the file at `path` is one that the asset of a scene names: a buffer, a picture or a
-/// material library. Whoever writes files beside a scene spares those. Links are followed. The asset
-/// itself is none.
+/// material library. Whoever writes files beside a scene spares those. Links are followed. The
+/// asset itself is none.
 /// @return false also where there is no file; true where memory does not suffice to find out
 ALP_API bool alp_scene_refers_to(const alp_scene *scene, const char *path);
 

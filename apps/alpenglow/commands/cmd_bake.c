@@ -3,15 +3,15 @@
 #include "bake_defaults.h"
 #include "bake_options.h"
 #include "commands/commands.h"
-#include "fields.h"
-#include "findings.h"
 #include "interrupt.h"
-#include "lighting.h"
 #include "output.h"
-#include "report.h"
-#include "report_page.h"
+#include "printing/findings.h"
+#include "printing/report.h"
+#include "printing/report_page.h"
+#include "printing/work.h"
 #include "session.h"
-#include "work.h"
+#include "setup/fields.h"
+#include "setup/lighting.h"
 
 #include <stdlib.h>
 #include <string.h>

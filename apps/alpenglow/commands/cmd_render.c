@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
-#include "cameras.h"
 #include "commands/commands.h"
-#include "film.h"
 #include "interrupt.h"
-#include "lighting.h"
-#include "lightmaps.h"
-#include "objects.h"
 #include "output.h"
 #include "picture_fields.h"
 #include "session.h"
+#include "setup/cameras.h"
+#include "setup/film.h"
+#include "setup/lighting.h"
+#include "setup/lightmaps.h"
+#include "setup/objects.h"
 #include "views.h"
 
 #include <math.h>

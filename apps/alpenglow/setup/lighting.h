@@ -3,7 +3,7 @@
 #ifndef COMMAND_LIGHTING_H
 #define COMMAND_LIGHTING_H
 
-#include "lamps.h"
+#include "setup/lamps.h"
 
 /// Reads the arguments, except the image of the sky.
 /// @param lamps out: borrowed by `options`

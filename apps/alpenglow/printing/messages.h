@@ -4,7 +4,7 @@
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
-#include "progress.h"
+#include "printing/progress.h"
 
 #include <alpenglow/context.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The doctor's findings, as text and as JSON.
-#include "findings.h"
+#include "printing/findings.h"
 
 #include "output.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lighting.h"
+#include "setup/lighting.h"
 
 #include "interrupt.h"
 #include "output.h"

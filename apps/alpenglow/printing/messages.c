@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Messages of the library: printed at once, but for warnings like earlier ones, which are printed
 // together; warnings are kept for the report.
-#include "messages.h"
+#include "printing/messages.h"
 
 #include "options/options.h"
 

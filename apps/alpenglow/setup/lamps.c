@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lamps.h"
+#include "setup/lamps.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "lightmaps.h"
+#include "setup/lightmaps.h"
 
-#include "lighting.h"
+#include "setup/lighting.h"
 
 #include <alpenglow/geometry.h>
 
