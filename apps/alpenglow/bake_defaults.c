@@ -1,103 +1,132 @@
 // SPDX-License-Identifier: MIT
 #include "bake_defaults.h"
 
-#include "messages.h"
 #include "output.h"
+#include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
 
 #include <stdio.h>
 #include <string.h>
 
-const char *bake_light_option(const option_value *values)
+const char *bake_light_option(const command_line *a)
 {
-    static const named_option of_light[] = {
-        {OPTION_SKY, "--sky"},           {OPTION_SUN, "--sun"},
-        {OPTION_LAMP, "--lamp"},         {OPTION_SPOT, "--spot"},
-        {OPTION_BOUNCES, "--bounces"},   {OPTION_DENOISE, "--denoise"},
-        {OPTION_LAYERS, "--layers"},     {OPTION_DIRECT, "--direct"},
-        {OPTION_GATHER, "--gather"},     {OPTION_HEMICUBE, "--hemicube"},
-        {OPTION_EMITTERS, "--emitters"}, {OPTION_LIGHTMAP_AS, "--lightmap-as"},
-        {OPTION_SKY_TURN, "--sky-turn"}, {OPTION_SKY_STRENGTH, "--sky-strength"},
-        {OPTION_SUN_SIZE, "--sun-size"},
-    };
-    return option_find_given(values, of_light, sizeof of_light / sizeof *of_light);
+    static const option_id of_light[] = {
+        OPTION_SKY,      OPTION_SUN,         OPTION_LAMP,     OPTION_SPOT,         OPTION_BOUNCES,
+        OPTION_DENOISE,  OPTION_LAYERS,      OPTION_DIRECT,   OPTION_GATHER,       OPTION_HEMICUBE,
+        OPTION_EMITTERS, OPTION_LIGHTMAP_AS, OPTION_SKY_TURN, OPTION_SKY_STRENGTH, OPTION_SUN_SIZE};
+    return option_find_given(a, of_light, sizeof of_light / sizeof *of_light);
 }
 
-const char *bake_occlusion_option(const option_value *values)
+const char *bake_occlusion_option(const command_line *a)
 {
-    static const named_option of_occlusion[] = {
-        {OPTION_AO_SAMPLES, "--ao-samples"},           {OPTION_AO_DISTANCE, "--ao-distance"},
-        {OPTION_AO_FALLOFF, "--ao-falloff"},           {OPTION_AO_CONE, "--ao-cone"},
-        {OPTION_AO_DISTRIBUTION, "--ao-distribution"}, {OPTION_AO_INTO, "--ao-into"}};
-    return option_find_given(values, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
+    static const option_id of_occlusion[] = {OPTION_AO_SAMPLES,      OPTION_AO_DISTANCE,
+                                             OPTION_AO_FALLOFF,      OPTION_AO_CONE,
+                                             OPTION_AO_DISTRIBUTION, OPTION_AO_INTO};
+    return option_find_given(a, of_occlusion, sizeof of_occlusion / sizeof *of_occlusion);
 }
 
-/// Names of choices of --maps and --lightmap-as, in their order.
-enum { MAP_AO = 1, MAP_LIGHT = 4 };
-enum { FORM_EMISSIVE = 0, FORM_THREE = 3, FORM_BABYLON = 4 };
-
-/// The form that the name of the output asks for, or −1.
-static int form_of_name(const char *output)
+unsigned bake_maps(const option_value *values)
 {
-    return output == NULL                  ? -1
-           : path_ends(output, ".json")    ? FORM_THREE
-           : path_ends(output, ".babylon") ? FORM_BABYLON
-                                           : -1;
+    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT,      ALP_MAP_LIGHT,
+                                   ALP_MAP_SH, ALP_MAP_DIRECTION, ALP_MAP_PROBES};
+    const uint64_t choices = values[OPTION_MAPS].whole;
+    unsigned bits = 0;
+    for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
+        bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;
+    }
+    return bits;
 }
 
-static void fill_maps(option_value *values)
+alp_lightmap_as bake_form(const option_value *values)
 {
+    const option_value *as = &values[OPTION_LIGHTMAP_AS];
+    return as->given ? (alp_lightmap_as)(as->choice + 1) : ALP_LIGHTMAP_AS_NONE;
+}
+
+/// The form that the name of the output asks for, or NULL.
+static const char *form_of_name(const char *output)
+{
+    return output == NULL                  ? NULL
+           : path_ends(output, ".json")    ? "three"
+           : path_ends(output, ".babylon") ? "babylon"
+                                           : NULL;
+}
+
+static void fill_maps(command_line *a)
+{
+    const option_value *values = a->values;
     const bool light =
-        bake_light_option(values) != NULL || form_of_name(values[OPTION_OUTPUT].text) >= 0;
-    const bool ao = bake_occlusion_option(values) != NULL || values[OPTION_EXISTING_AO].given ||
+        bake_light_option(a) != NULL || form_of_name(values[OPTION_OUTPUT].text) != NULL;
+    const bool ao = bake_occlusion_option(a) != NULL || values[OPTION_EXISTING_AO].given ||
                     values[OPTION_AO_BLEED].given;
     if (!values[OPTION_MAPS].given && light) {
-        values[OPTION_MAPS].whole = ao ? MAP_AO | MAP_LIGHT : MAP_LIGHT;
+        option_give(a, OPTION_MAPS, ao ? "ao,light" : "light");
+        a->values[OPTION_MAPS].given = false;
     }
 }
 
-/// @return whether the form is one of several that OUT could have
-static bool fill_form(option_value *values)
+/// How the light that it emits is held by an output, and which other forms there are.
+static const char *note_of_emission(const char *output)
 {
-    static const char *const names[] = {"emissive", "moz", "extras", "three", "babylon"};
-    option_value *as = &values[OPTION_LIGHTMAP_AS];
-    const uint64_t maps = values[OPTION_MAPS].whole;
-    const int named = form_of_name(values[OPTION_OUTPUT].text);
-    // With --maps-dir, occlusion has its place in OUT and light has its own in the folder.
-    const bool apart =
-        values[OPTION_MAPS_FOLDER].given && (!values[OPTION_OUTPUT].given || (maps & MAP_AO) != 0);
-    if (as->given || (maps & MAP_LIGHT) == 0 || (apart && named < 0) ||
-        values[OPTION_UNITS].given || values[OPTION_LIGHTMAP_FORMAT].given) {
-        return false;
+    return path_ends(output, ".obj")
+               ? "it emits the light: map_Ke of its .mtl names the map (--lightmap-as emissive), "
+                 "the only form of an .obj; a .glb or .gltf has moz and extras too; --maps-dir DIR "
+                 "gets the light as files"
+           : path_ends(output, ".dae")
+               ? "it emits the light: <emission> of its effects names the map (--lightmap-as "
+                 "emissive), the only form of a .dae; a .glb or .gltf has moz and extras too; "
+                 "--maps-dir DIR gets the light as files"
+               : "it emits the light, which every viewer shows (--lightmap-as emissive); other "
+                 "forms are moz and extras, three in OUT.json and babylon in OUT.babylon; "
+                 "--maps-dir DIR gets the light as files";
+}
+
+/// The place of light that no option names.
+typedef enum light_place { PLACE_NAMED, PLACE_EMITTED, PLACE_FOLDER } light_place;
+
+/// Fills in --lightmap-as. With --maps-dir, occlusion has its place in OUT and light has its own
+/// in the folder.
+static light_place fill_form(command_line *a)
+{
+    const option_value *values = a->values;
+    const unsigned maps = bake_maps(values);
+    const char *named = form_of_name(values[OPTION_OUTPUT].text);
+    const bool output = values[OPTION_OUTPUT].given, folder = values[OPTION_MAPS_FOLDER].given;
+    if (values[OPTION_LIGHTMAP_AS].given || (maps & ALP_MAP_LIGHT) == 0 ||
+        values[OPTION_UNITS].given || values[OPTION_LIGHTMAP_FORMAT].given ||
+        (named == NULL && folder && !output)) {
+        return PLACE_NAMED;
     }
-    as->given = true;
-    as->choice = named >= 0 ? named : FORM_EMISSIVE;
-    as->text = names[as->choice];
-    return named < 0;
+    if (named == NULL && folder && (maps & ALP_MAP_AO) != 0) {
+        return PLACE_FOLDER;
+    }
+    option_give(a, OPTION_LIGHTMAP_AS, named != NULL ? named : "emissive");
+    return named != NULL ? PLACE_NAMED : PLACE_EMITTED;
 }
 
 /// The ending of an output that has a place for all that is baked.
 static const char *choose_ending(const option_value *values, const char *scene)
 {
-    const option_value *as = &values[OPTION_LIGHTMAP_AS];
+    const alp_lightmap_as as = bake_form(values);
     const int atlas = values[OPTION_ATLAS].choice;
     const bool is_dae = path_ends(scene, ".dae") || path_ends(scene, ".zae");
     const bool plain = atlas != (int)ALP_ATLAS_VERTEX &&
                        values[OPTION_AO_INTO].choice != (int)ALP_AO_INTO_ORM &&
-                       (!as->given || as->choice == FORM_EMISSIVE);
-    return as->given && as->choice == FORM_THREE                                ? ".json"
-           : as->given && as->choice == FORM_BABYLON                            ? ".babylon"
+                       (as == ALP_LIGHTMAP_AS_NONE || as == ALP_LIGHTMAP_AS_EMISSIVE);
+    return as == ALP_LIGHTMAP_AS_THREE                                          ? ".json"
+           : as == ALP_LIGHTMAP_AS_BABYLON                                      ? ".babylon"
            : path_ends(scene, ".gltf")                                          ? ".gltf"
            : plain && is_dae                                                    ? ".dae"
            : plain && path_ends(scene, ".obj") && atlas != (int)ALP_ATLAS_BLEND ? ".obj"
                                                                                 : ".glb";
 }
 
-/// The name of a scene without folder, ending, and settings of a built-in one.
+/// The name of a scene without folder, ending, ".baked", and settings of a built-in one.
 static void find_stem(const char *scene, const char **stem, size_t *length)
 {
-    static const char builtin[] = "builtin:";
+    static const char builtin[] = "builtin:", baked[] = ".baked";
+    const size_t tail = sizeof baked - 1;
     const char *slash = strrchr(scene, '/');
     if (strncmp(scene, builtin, sizeof builtin - 1) == 0) {
         *stem = scene + sizeof builtin - 1;
@@ -107,6 +136,9 @@ static void find_stem(const char *scene, const char **stem, size_t *length)
     *stem = slash == NULL ? scene : slash + 1;
     const char *dot = strrchr(*stem, '.');
     *length = dot == NULL || dot == *stem ? strlen(*stem) : (size_t)(dot - *stem);
+    if (*length > tail && strncmp(*stem + *length - tail, baked, tail) == 0) {
+        *length -= tail;
+    }
 }
 
 static char *make_name(const option_value *values, const char *scene)
@@ -122,16 +154,18 @@ static char *make_name(const option_value *values, const char *scene)
 
 char *bake_defaults_fill(command_line *a, const char **note)
 {
-    option_value *values = a->values, *output = &values[OPTION_OUTPUT];
+    option_value *output = &a->values[OPTION_OUTPUT];
     char *name = NULL;
-    fill_maps(values);
-    *note = fill_form(values)
-                ? "it emits the light, which every viewer shows (--lightmap-as emissive); other "
-                  "forms are moz, extras, three and babylon; --maps-dir DIR gets it as files"
-                : NULL;
-    if (!output->given && !values[OPTION_MAPS_FOLDER].given) {
-        name = make_name(values, a->operands[0]);
+    fill_maps(a);
+    const light_place place = fill_form(a);
+    if (!output->given && !a->values[OPTION_MAPS_FOLDER].given) {
+        name = make_name(a->values, a->operands[0]);
         *output = (option_value){.given = true, .text = name};
     }
+    *note = place == PLACE_EMITTED  ? note_of_emission(output->text)
+            : place == PLACE_FOLDER ? "it holds the occlusion alone; the light is in the folder of "
+                                      "--maps-dir; --lightmap-as emissive puts it into this file "
+                                      "too"
+                                    : NULL;
     return name;
 }

@@ -5,10 +5,16 @@
 
 #include "options/options.h"
 
+#include <alpenglow/alpenglow.h>
+
 /// The first given option that only light has and that asks for light, or NULL.
-const char *bake_light_option(const option_value *values);
+const char *bake_light_option(const command_line *a);
 /// The first given option that only occlusion has, or NULL.
-const char *bake_occlusion_option(const option_value *values);
+const char *bake_occlusion_option(const command_line *a);
+/// The bits of alp_map of --maps.
+unsigned bake_maps(const option_value *values);
+/// The form of --lightmap-as, or NONE.
+alp_lightmap_as bake_form(const option_value *values);
 
 /// Fills in options that were not given.
 /// --maps: light for an option of light, with ao for an option of occlusion.

@@ -5,8 +5,8 @@
 #include "bake_options.h"
 
 #include "bake_defaults.h"
-#include "lighting.h"
 #include "output.h"
+#include "setup/lighting.h"
 
 #include <string.h>
 
@@ -30,36 +30,25 @@ static int check_output_name(const char *path, alp_lightmap_as as)
 }
 
 /// Refuses options that do not apply to values at vertices, or only to them.
-static int check_vertex_options(const option_value *values)
+static int check_vertex_options(const command_line *a)
 {
-    static const struct {
-        option_id id;
-        const char *name;
-    } of_maps[] = {{OPTION_SIZE, "--size"},
-                   {OPTION_TEXELS_PER_METRE, "--texels-per-metre"},
-                   {OPTION_PADDING, "--padding"},
-                   {OPTION_BLOCK, "--block"},
-                   {OPTION_MIPS, "--mips"},
-                   {OPTION_DENSITY, "--density"},
-                   {OPTION_EXISTING_AO, "--existing-ao"},
-                   {OPTION_AO_INTO, "--ao-into"},
-                   {OPTION_QUALITY, "--quality"},
-                   {OPTION_ERROR, "--error"},
-                   {OPTION_ADAPTIVE, "--adaptive"},
-                   {OPTION_TIME_LIMIT, "--time-limit"},
-                   {OPTION_KEEP_PARTIAL, "--keep-partial"},
-                   {OPTION_AO_BLEED, "--ao-bleed"},
-                   {OPTION_MAPS_FOLDER, "--maps-dir"},
-                   {OPTION_MAPS_AS, "--maps-as"},
-                   {OPTION_STITCH, "--stitch"}};
-    bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
-    for (size_t i = 0; at_vertices && i < sizeof of_maps / sizeof *of_maps; i++) {
-        if (values[of_maps[i].id].given) {
-            return usage_error(COMMAND_BAKE,
-                               "%s: not with --atlas vertex, which makes no map and traces all "
-                               "rays at every vertex",
-                               of_maps[i].name);
-        }
+    static const option_id of_maps[] = {OPTION_SIZE,         OPTION_TEXELS_PER_METRE,
+                                        OPTION_PADDING,      OPTION_BLOCK,
+                                        OPTION_MIPS,         OPTION_DENSITY,
+                                        OPTION_EXISTING_AO,  OPTION_AO_INTO,
+                                        OPTION_QUALITY,      OPTION_ERROR,
+                                        OPTION_ADAPTIVE,     OPTION_TIME_LIMIT,
+                                        OPTION_KEEP_PARTIAL, OPTION_AO_BLEED,
+                                        OPTION_MAPS_FOLDER,  OPTION_MAPS_AS,
+                                        OPTION_STITCH};
+    const option_value *values = a->values;
+    const bool at_vertices = values[OPTION_ATLAS].choice == (int)ALP_ATLAS_VERTEX;
+    const char *name = option_find_given(a, of_maps, sizeof of_maps / sizeof *of_maps);
+    if (at_vertices && name != NULL) {
+        return usage_error(COMMAND_BAKE,
+                           "%s: not with --atlas vertex, which makes no map and traces all rays "
+                           "at every vertex",
+                           name);
     }
     if (!at_vertices && values[OPTION_VERTEX_ATTRIBUTE].given) {
         return usage_error(COMMAND_BAKE, "--vertex-attribute: needs --atlas vertex");
@@ -68,11 +57,11 @@ static int check_vertex_options(const option_value *values)
 }
 
 /// Options of light need light, those of occlusion need occlusion.
-static int check_light(const option_value *values, bool light, bool occlusion)
+static int check_light(const command_line *a, bool light, bool occlusion)
 {
-    static const named_option not_of_light[] = {{OPTION_AO_SELF, "--ao-self"},
-                                                {OPTION_OCCLUDERS, "--occluders"}};
-    const char *name = bake_light_option(values);
+    static const option_id not_of_light[] = {OPTION_AO_SELF, OPTION_OCCLUDERS};
+    const option_value *values = a->values;
+    const char *name = bake_light_option(a);
     if (name == NULL && values[OPTION_SAMPLES].given) {
         name = "--samples";
     }
@@ -80,12 +69,12 @@ static int check_light(const option_value *values, bool light, bool occlusion)
         return usage_error(COMMAND_BAKE, "%s: needs --maps light%s", name,
                            values[OPTION_MAPS].given ? "" : "; occlusion has --ao-samples");
     }
-    name = bake_occlusion_option(values);
+    name = bake_occlusion_option(a);
     if (name != NULL && !occlusion) {
         return usage_error(COMMAND_BAKE, "%s: applies to occlusion only; for light give --samples",
                            name);
     }
-    name = option_find_given(values, not_of_light, sizeof not_of_light / sizeof *not_of_light);
+    name = option_find_given(a, not_of_light, sizeof not_of_light / sizeof *not_of_light);
     if (name != NULL && light) {
         return usage_error(COMMAND_BAKE, "--maps light: is baked for the whole scene; leave out %s",
                            name);
@@ -93,49 +82,17 @@ static int check_light(const option_value *values, bool light, bool occlusion)
     return EXIT_DONE;
 }
 
-/// The bits of alp_map of --maps, whose choices are numbered in their order.
-static unsigned listed_maps(unsigned choices)
+/// Refuses forms of light that their options or other maps exclude.
+static int check_form(const option_value *values, const alp_bake_options *o)
 {
-    static const alp_map maps[] = {ALP_MAP_AO, ALP_MAP_BENT,      ALP_MAP_LIGHT,
-                                   ALP_MAP_SH, ALP_MAP_DIRECTION, ALP_MAP_PROBES};
-    unsigned bits = 0;
-    for (unsigned i = 0; i < sizeof maps / sizeof *maps; i++) {
-        bits |= (choices >> i & 1u) != 0 ? (unsigned)maps[i] : 0u;
-    }
-    return bits;
-}
-
-/// --lightmap-as with --units and --lightmap-format, and their needs.
-static int read_lightmap(const option_value *values, alp_bake_options *o)
-{
-    const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
-    const option_value *format = &values[OPTION_LIGHTMAP_FORMAT];
-    const unsigned maps = listed_maps((unsigned)values[OPTION_MAPS].whole);
-    if (!as->given) {
-        return units->given || format->given
-                   ? usage_error(COMMAND_BAKE, "%s: applies to light in -o; needs --lightmap-as",
-                                 units->given ? "--units" : "--lightmap-format")
-                   : EXIT_DONE;
-    }
-    o->lightmap_as = (alp_lightmap_as)(as->choice + 1);
-    o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
-    o->lightmap_format = (alp_lightmap_format)format->choice;
-    if ((maps & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
-        return usage_error(COMMAND_BAKE, "--lightmap-as: writes light into -o; needs %s",
-                           o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
-    }
+    const option_value *as = &values[OPTION_LIGHTMAP_AS];
     const bool viewer = o->lightmap_as >= ALP_LIGHTMAP_AS_THREE;
-    if (format->given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
+    if (values[OPTION_LIGHTMAP_FORMAT].given && o->lightmap_as != ALP_LIGHTMAP_AS_EXTRAS) {
         return usage_error(COMMAND_BAKE,
                            "--lightmap-format: applies to --lightmap-as extras; %s %s", as->text,
                            viewer ? "has a format of its own" : "stores a PNG in the asset");
     }
-    if (units->given && viewer) {
-        return usage_error(COMMAND_BAKE,
-                           "--units: not with --lightmap-as %s, whose viewer needs fixed units",
-                           as->text);
-    }
-    if (viewer && (maps & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
+    if (viewer && (bake_maps(values) & ALP_MAP_AO) != 0 && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE,
                            "--maps ao: --lightmap-as %s stores light alone; give --maps-dir DIR",
                            as->text);
@@ -145,23 +102,59 @@ static int read_lightmap(const option_value *values, alp_bake_options *o)
                            "--ao-into orm: not with --lightmap-as, because occlusion shares the "
                            "coordinates of the light; leave one of them out");
     }
-    const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
-    if (units->given && o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
-        return usage_error(COMMAND_BAKE,
-                           "--units %s: --lightmap-as emissive stores radiance; leave out --units",
-                           units->text);
-    }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && values[OPTION_DIRECT].given &&
         strcmp(values[OPTION_DIRECT].text, "off") == 0) {
         return usage_error(COMMAND_BAKE,
                            "--direct off: materials of --lightmap-as emissive are "
                            "black and reflect no direct light; use --lightmap-as moz or extras");
     }
+    return EXIT_DONE;
+}
+
+/// Refuses --units that a form of light does not have.
+static int check_units(const option_value *values, const alp_bake_options *o)
+{
+    const option_value *as = &values[OPTION_LIGHTMAP_AS], *units = &values[OPTION_UNITS];
+    const bool radiance = o->light_units == ALP_LIGHT_RADIANCE;
+    if (!units->given) {
+        return EXIT_DONE;
+    }
+    if (o->lightmap_as >= ALP_LIGHTMAP_AS_THREE) {
+        return usage_error(COMMAND_BAKE,
+                           "--units: not with --lightmap-as %s, whose viewer needs fixed units",
+                           as->text);
+    }
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_EMISSIVE && !radiance) {
+        return usage_error(COMMAND_BAKE,
+                           "--units %s: --lightmap-as emissive stores radiance; leave out --units",
+                           units->text);
+    }
     if (o->lightmap_as == ALP_LIGHTMAP_AS_MOZ && radiance) {
         return usage_error(COMMAND_BAKE, "--units radiance: readers of MOZ_lightmap multiply it by "
                                          "the albedo; give irradiance or irradiance/pi");
     }
     return EXIT_DONE;
+}
+
+/// --lightmap-as with --units and --lightmap-format, and their needs.
+static int read_lightmap(const option_value *values, alp_bake_options *o)
+{
+    const option_value *units = &values[OPTION_UNITS], *format = &values[OPTION_LIGHTMAP_FORMAT];
+    o->lightmap_as = bake_form(values);
+    if (o->lightmap_as == ALP_LIGHTMAP_AS_NONE) {
+        return units->given || format->given
+                   ? usage_error(COMMAND_BAKE, "%s: applies to light in -o; needs --lightmap-as",
+                                 units->given ? "--units" : "--lightmap-format")
+                   : EXIT_DONE;
+    }
+    o->light_units = units->given ? (alp_light_units)(units->choice + 1) : ALP_LIGHT_UNITS_AUTO;
+    o->lightmap_format = (alp_lightmap_format)format->choice;
+    if ((bake_maps(values) & ALP_MAP_LIGHT) == 0 || o->output == NULL) {
+        return usage_error(COMMAND_BAKE, "--lightmap-as: writes light into -o; needs %s",
+                           o->output == NULL ? "-o OUT.glb or -o OUT.gltf" : "--maps light");
+    }
+    const int code = check_form(values, o);
+    return code == EXIT_DONE ? check_units(values, o) : code;
 }
 
 /// --maps-as: the format of --maps-dir.
@@ -186,29 +179,30 @@ static int read_maps_format(const option_value *values, alp_bake_options *o)
     return EXIT_DONE;
 }
 
-/// --maps and --ao-bleed, and options that exclude them.
-static int read_maps(const option_value *values, alp_bake_options *o)
+/// Refuses maps of light by direction without light, or by a gatherer that loses directions.
+static int check_directions(const option_value *values, unsigned maps)
 {
-    const bool bleed = values[OPTION_AO_BLEED].given;
-    o->maps = listed_maps((unsigned)values[OPTION_MAPS].whole) | (bleed ? ALP_MAP_OBSCURANCE : 0u);
-    const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
-    const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
-    const bool sh = (o->maps & ALP_MAP_SH) != 0, direction = (o->maps & ALP_MAP_DIRECTION) != 0;
-    if (values[OPTION_METALS].given && !light && !bleed) {
-        return usage_error(COMMAND_BAKE, "--metals: needs --maps light or --ao-bleed");
+    const char *name = (maps & ALP_MAP_SH) != 0          ? "sh"
+                       : (maps & ALP_MAP_DIRECTION) != 0 ? "direction"
+                                                         : NULL;
+    if (name != NULL && (maps & ALP_MAP_LIGHT) == 0) {
+        return usage_error(COMMAND_BAKE, "--maps %s: needs light; give --maps light,%s", name,
+                           name);
     }
-    if ((sh || direction) && !light) {
-        return usage_error(COMMAND_BAKE, "--maps %s: needs light; give --maps light,%s",
-                           sh ? "sh" : "direction", sh ? "sh" : "direction");
-    }
-    if ((sh || direction) && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
+    if (name != NULL && values[OPTION_GATHER].choice == (int)ALP_GATHER_PATHS) {
         return usage_error(
             COMMAND_BAKE,
             "--maps %s: --gather paths keeps no directions of light; use --gather rays or hemicube",
-            sh ? "sh" : "direction");
+            name);
     }
+    return EXIT_DONE;
+}
+
+/// Refuses probes without what they need, and their options without them.
+static int check_probes(const option_value *values, const alp_bake_options *o)
+{
     const bool probes = (o->maps & ALP_MAP_PROBES) != 0;
-    if (probes && !light) {
+    if (probes && (o->maps & ALP_MAP_LIGHT) == 0) {
         return usage_error(COMMAND_BAKE, "--maps probes: shares the light of the map; give --maps "
                                          "light,probes, or use the command probes");
     }
@@ -219,11 +213,19 @@ static int read_maps(const option_value *values, alp_bake_options *o)
     if (probes && o->maps_folder == NULL) {
         return usage_error(COMMAND_BAKE, "--maps probes: give --maps-dir DIR");
     }
+    return EXIT_DONE;
+}
+
+/// Refuses maps that have no place in the outputs.
+static int check_places(const alp_bake_options *o)
+{
+    const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
+    const bool light = (o->maps & ALP_MAP_LIGHT) != 0, bleed = (o->maps & ALP_MAP_OBSCURANCE) != 0;
+    const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
     if (o->atlas.mode == ALP_ATLAS_VERTEX && (bent || light)) {
         return usage_error(COMMAND_BAKE, "--maps %s: not with --atlas vertex, which bakes ao only",
                            bent ? "bent" : "light");
     }
-    const bool lit = o->lightmap_as != ALP_LIGHTMAP_AS_NONE;
     if (o->maps_folder == NULL && (bent || bleed || (light && !lit))) {
         return usage_error(COMMAND_BAKE, "%s: glTF has no place for it; give --maps-dir DIR%s",
                            bent    ? "--maps bent"
@@ -236,6 +238,26 @@ static int read_maps(const option_value *values, alp_bake_options *o)
             COMMAND_BAKE, "-o %s: glTF has a place for ao only; give %s, or --maps-dir alone",
             o->output, light ? "--lightmap-as or --maps ao,light" : "--maps ao,bent");
     }
+    return EXIT_DONE;
+}
+
+/// --maps and --ao-bleed, and options that exclude them.
+static int read_maps(const command_line *a, alp_bake_options *o)
+{
+    const option_value *values = a->values;
+    const bool bleed = values[OPTION_AO_BLEED].given;
+    o->maps = bake_maps(values) | (bleed ? ALP_MAP_OBSCURANCE : 0u);
+    const bool ao = (o->maps & ALP_MAP_AO) != 0, bent = (o->maps & ALP_MAP_BENT) != 0;
+    const bool light = (o->maps & ALP_MAP_LIGHT) != 0;
+    if (values[OPTION_METALS].given && !light && !bleed) {
+        return usage_error(COMMAND_BAKE, "--metals: needs --maps light or --ao-bleed");
+    }
+    int code = check_directions(values, o->maps);
+    code = code == EXIT_DONE ? check_probes(values, o) : code;
+    code = code == EXIT_DONE ? check_places(o) : code;
+    if (code != EXIT_DONE) {
+        return code;
+    }
     if (values[OPTION_EXISTING_AO].given && !ao) {
         return usage_error(COMMAND_BAKE, "--existing-ao: needs --maps ao");
     }
@@ -244,7 +266,7 @@ static int read_maps(const option_value *values, alp_bake_options *o)
             COMMAND_BAKE,
             "--ao-bleed: has no partial results; leave out --time-limit and --keep-partial");
     }
-    return check_light(values, light, ao || bent || bleed);
+    return check_light(a, light, ao || bent || bleed);
 }
 
 /// --quality, --error and the limits. With a wanted error, --ao-samples is a limit with a high
@@ -260,12 +282,11 @@ static int read_sampling(const command_line *a, alp_bake_options *o)
     if (code != EXIT_DONE) {
         return code;
     }
-    if (s->error > 0.0f && o->maps == ALP_MAP_LIGHT &&
-        (values[OPTION_SAMPLES].given || o->light.gather != ALP_GATHER_RAYS ||
-         o->light.bounces == 0)) {
-        return usage_error(COMMAND_BAKE,
-                           "--%s: for light needs --gather rays, bounces, and no --samples",
-                           values[OPTION_QUALITY].given ? "quality" : "error");
+    if (s->error > 0.0f && o->maps == ALP_MAP_LIGHT) {
+        const int refused = error_check_light(a, OPTION_SAMPLES);
+        if (refused != EXIT_DONE) {
+            return refused;
+        }
     }
     s->time_limit = values[OPTION_TIME_LIMIT].given ? values[OPTION_TIME_LIMIT].real : 0.0;
     if (!values[OPTION_SAMPLES].given && o->light.gather == ALP_GATHER_RAYS &&
@@ -377,12 +398,12 @@ static int read_light(const command_line *a, alp_light_options *o)
     return code == EXIT_DONE ? check_layers(values, o) : code;
 }
 
-static int read_atlas(const option_value *values, alp_atlas_options *o)
+static int read_atlas(const command_line *a, alp_atlas_options *o)
 {
-    static const named_option of_charts[] = {
-        {OPTION_BLOCK, "--block"}, {OPTION_MIPS, "--mips"}, {OPTION_DENSITY, "--density"}};
+    static const option_id of_charts[] = {OPTION_BLOCK, OPTION_MIPS, OPTION_DENSITY};
+    const option_value *values = a->values;
     const option_value *density = &values[OPTION_TEXELS_PER_METRE];
-    const char *name = option_find_given(values, of_charts, sizeof of_charts / sizeof *of_charts);
+    const char *name = option_find_given(a, of_charts, sizeof of_charts / sizeof *of_charts);
     o->mode = (alp_atlas_mode)values[OPTION_ATLAS].choice;
     o->size = (uint32_t)values[OPTION_SIZE].whole;
     o->padding = (uint32_t)values[OPTION_PADDING].whole;
@@ -411,14 +432,14 @@ int bake_options_read(const command_line *a, alp_bake_options *o, lamp_list *lam
     o->existing_ao = (alp_existing_ao)values[OPTION_EXISTING_AO].choice;
     o->ao_into = (alp_ao_into)values[OPTION_AO_INTO].choice;
     o->vertex_attribute = (alp_vertex_attribute)values[OPTION_VERTEX_ATTRIBUTE].choice;
-    int code = check_vertex_options(values);
-    code = code == EXIT_DONE ? read_atlas(values, &o->atlas) : code;
+    int code = check_vertex_options(a);
+    code = code == EXIT_DONE ? read_atlas(a, &o->atlas) : code;
     if (code == EXIT_DONE) {
         code = read_choice(values, o);
     }
     code = code == EXIT_DONE ? read_lightmap(values, o) : code;
     code = code == EXIT_DONE ? check_output_name(o->output, o->lightmap_as) : code;
-    code = code == EXIT_DONE ? read_maps(values, o) : code;
+    code = code == EXIT_DONE ? read_maps(a, o) : code;
     code = code == EXIT_DONE ? read_maps_format(values, o) : code;
     code = code == EXIT_DONE ? occlusion_read(a, &o->occlusion) : code;
     code = code == EXIT_DONE ? lighting_read(a, &o->light.lighting, lamps) : code;

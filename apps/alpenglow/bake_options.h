@@ -3,9 +3,9 @@
 #ifndef COMMAND_BAKE_OPTIONS_H
 #define COMMAND_BAKE_OPTIONS_H
 
-#include "lamps.h"
 #include "options/options.h"
 #include "session.h"
+#include "setup/lamps.h"
 
 #include <alpenglow/alpenglow.h>
 

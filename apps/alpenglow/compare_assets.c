@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "compare_assets.h"
 
-#include "messages.h"
 #include "output.h"
+#include "printing/messages.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 // The main program: finds the command and runs it.
 #include "commands/commands.h"
 #include "compare_assets.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "streams.h"
 
 #include <alpenglow/alpenglow.h>
@@ -38,6 +38,30 @@ static void propose(const char *scene)
     fputs("  occlusion; --sky 1 or another light for light\nTry 'alpenglow --help'.\n", stderr);
 }
 
+/// Whether a word names a file: no command has a dot or a slash.
+static bool names_file(const char *word)
+{
+    return word[0] != '-' && strpbrk(word, "./") != NULL;
+}
+
+/// Says what a file is that stands alone: a scene whose ending is unusual, or no scene.
+static void explain_file(const char *path)
+{
+    alp_context *context = NULL;
+    alp_scene *scene = NULL;
+    alp_result result = alp_context_create(NULL, &context);
+    if (result == ALP_OK) {
+        result = alp_scene_load(context, path, &scene);
+    }
+    if (result == ALP_OK) {
+        propose(path);
+    } else {
+        failure(context != NULL ? alp_context_message(context) : alp_result_name(result));
+    }
+    alp_scene_destroy(scene);
+    alp_context_destroy(context);
+}
+
 /// alpenglow alone.
 static int print_examples(void)
 {
@@ -51,6 +75,21 @@ static int print_examples(void)
     return EXIT_USAGE;
 }
 
+/// An option before any command.
+static void refuse_option(const char *name)
+{
+    for (command_id i = 0; i < COMMAND_COUNT; i++) {
+        if (option_find(i, name, strcspn(name, "=")) != NULL) {
+            usage_error(COMMAND_COUNT, "%s: the command comes first, as in alpenglow %s SCENE %s",
+                        name, command_table()[i].name, name);
+            return;
+        }
+    }
+    usage_error(
+        COMMAND_COUNT,
+        "unknown option '%s'; the command comes first: bake, render, info, compare or bench", name);
+}
+
 /// The command of this name, or COMMAND_COUNT after a message.
 static command_id find_command(const char *name)
 {
@@ -62,11 +101,10 @@ static command_id find_command(const char *name)
     const char *nearest = command_nearest(name);
     if (compare_is_scene(name)) {
         propose(name);
+    } else if (names_file(name)) {
+        explain_file(name);
     } else if (name[0] == '-') {
-        usage_error(COMMAND_COUNT,
-                    "unknown option '%s'; the command comes first: bake, render, "
-                    "info, compare or bench",
-                    name);
+        refuse_option(name);
     } else if (nearest != NULL) {
         usage_error(COMMAND_COUNT, "unknown command '%s'; did you mean %s?", name, nearest);
     } else {

@@ -2,8 +2,8 @@
 // Files that the command itself writes: checked before the work, written completely or not at all.
 #include "output.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <errno.h>
 #include <fcntl.h>

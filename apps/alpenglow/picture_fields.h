@@ -3,7 +3,7 @@
 #ifndef COMMAND_PICTURE_FIELDS_H
 #define COMMAND_PICTURE_FIELDS_H
 
-#include "fields.h"
+#include "setup/fields.h"
 
 #include <alpenglow/render.h>
 

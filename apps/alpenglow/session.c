@@ -30,6 +30,24 @@ int session_open(session *s, const command_line *a)
     return result == ALP_OK ? EXIT_DONE : failure(alp_result_name(result));
 }
 
+/// Refuses outputs that are files of the scene: its pictures, buffers and material libraries.
+static int spare_files(const session *s, const command_line *a)
+{
+    static const option_id outputs[] = {OPTION_OUTPUT, OPTION_JSON, OPTION_REPORT, OPTION_CSV};
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; i++) {
+        const char *path = a->values[outputs[i]].text;
+        if (path != NULL && alp_scene_refers_to(s->scene, path)) {
+            char text[512];
+            snprintf(text, sizeof text,
+                     "%.300s: is a file that the scene refers to, which is never overwritten; give "
+                     "the output another name",
+                     path);
+            return failure(text);
+        }
+    }
+    return EXIT_DONE;
+}
+
 int session_load(session *s, const command_line *a)
 {
     double start = clock_seconds();
@@ -45,6 +63,7 @@ int session_load(session *s, const command_line *a)
     s->load_seconds = clock_seconds() - start;
     s->messages.gathered = false;
     messages_flush(&s->messages);
+    code = code == EXIT_DONE ? spare_files(s, a) : code;
     return code == EXIT_DONE ? session_judge_warnings(s) : code;
 }
 

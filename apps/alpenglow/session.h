@@ -3,9 +3,9 @@
 #ifndef COMMAND_SESSION_H
 #define COMMAND_SESSION_H
 
-#include "messages.h"
 #include "options/options.h"
-#include "progress.h"
+#include "printing/messages.h"
+#include "printing/progress.h"
 
 #include <alpenglow/alpenglow.h>
 

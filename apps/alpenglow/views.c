@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "views.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "drawing.h"
 
-#include "messages.h"
 #include "options/options.h"
 #include "picture.h"
+#include "printing/messages.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "field_objects.h"
 
 #include "field_points.h"
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <alpenglow/geometry.h>
 #include <alpenglow/shared_constants.h>

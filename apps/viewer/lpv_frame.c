@@ -2,8 +2,8 @@
 #include "lpv_frame.h"
 
 #include "light_views.h"
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <math.h>
 #include <stdlib.h>

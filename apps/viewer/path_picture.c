@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "path_picture.h"
 
-#include "messages.h"
-#include "progress.h"
+#include "printing/messages.h"
+#include "printing/progress.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "picture_texts.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <math.h>
 #include <stdio.h>

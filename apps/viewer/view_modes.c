@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "view_modes.h"
 
-#include "lightmaps.h"
 #include "mode_fields.h"
 #include "passes/shader_list.h"
+#include "setup/lightmaps.h"
 #include "shaders/bindings.h"
 
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "view_options.h"
 
-#include "cameras.h"
-#include "film.h"
-#include "lighting.h"
-#include "objects.h"
 #include "output.h"
+#include "setup/cameras.h"
+#include "setup/film.h"
+#include "setup/lighting.h"
+#include "setup/objects.h"
 #include "view_capture.h"
 #include "views.h"
 

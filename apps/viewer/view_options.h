@@ -3,7 +3,7 @@
 #ifndef VIEWER_VIEW_OPTIONS_H
 #define VIEWER_VIEW_OPTIONS_H
 
-#include "lamps.h"
+#include "setup/lamps.h"
 #include "view_modes.h"
 
 /// The settings that the arguments give.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "view_run.h"
 
-#include "cameras.h"
 #include "interrupt.h"
-#include "lighting.h"
-#include "objects.h"
 #include "output.h"
 #include "picture_texts.h"
+#include "setup/cameras.h"
+#include "setup/lighting.h"
+#include "setup/objects.h"
 #include "view_capture.h"
 #include "view_job.h"
 

@@ -34,6 +34,12 @@ ALP_API ALP_NODISCARD alp_result alp_scene_load(alp_context *context, const char
 ALP_API ALP_NODISCARD alp_result alp_scene_load_choice(alp_context *context, const char *path,
                                                        const char *choice, alp_scene **scene);
 
+/// Whether the file at `path` is one that the asset of a scene names: a buffer, a picture or a
+/// material library. Whoever writes files beside a scene spares those. Links are followed. The
+/// asset itself is none.
+/// @return false also where there is no file; true where memory does not suffice to find out
+ALP_API bool alp_scene_refers_to(const alp_scene *scene, const char *path);
+
 /// No item of an array: an index that is none.
 #define ALP_NONE UINT32_MAX
 

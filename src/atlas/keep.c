@@ -178,12 +178,31 @@ alp_result alpi_uv_islands(alp_atlas *atlas, const uint32_t (*neighbours)[3])
     return ALP_OK;
 }
 
-/// Whether so few texels are shared that a bake with KEEP goes on.
+/// Share of the covered texels up to which a bake with KEEP goes on.
+static const double MOST_SHARED = 0.01;
+
+/// Percentage of the covered texels that triangles share.
+static double shared_percent(const alp_atlas *atlas)
+{
+    return 100.0 * (double)atlas->info.overlapping_texels / (double)atlas->info.texels;
+}
+
 static bool are_few(const alp_atlas *atlas)
 {
-    static const double MOST = 0.01; // of the covered texels
     return atlas->options.mode == ALP_ATLAS_KEEP &&
-           (double)atlas->info.overlapping_texels <= MOST * (double)atlas->info.texels;
+           (double)atlas->info.overlapping_texels <= MOST_SHARED * (double)atlas->info.texels;
+}
+
+static alp_result tell_overlaps(const alp_atlas *atlas, const fault_list *list, char **reason)
+{
+    char fault[128];
+    int length = snprintf(fault, sizeof fault, "triangles overlap in it, on %.3g %% of its texels",
+                          shared_percent(atlas));
+    if (atlas->options.mode == ALP_ATLAS_KEEP && length > 0 && (size_t)length < sizeof fault) {
+        snprintf(fault + length, sizeof fault - (size_t)length, ", above the limit of %g %%",
+                 100.0 * MOST_SHARED);
+    }
+    return tell(list, fault, reason);
 }
 
 static void warn_of_few(const alp_atlas *atlas, const fault_list *list)
@@ -193,8 +212,7 @@ static void warn_of_few(const alp_atlas *atlas, const fault_list *list)
               "%u triangle%s with others in the second UV set (TEXCOORD_1), on %.2g %% of its "
               "texels, such as %s%s: they have each other's values there; use --atlas charts for "
               "maps without overlaps",
-              list->total, list->total == 1 ? " overlaps" : "s overlap",
-              100.0 * (double)atlas->info.overlapping_texels / (double)atlas->info.texels,
+              list->total, list->total == 1 ? " overlaps" : "s overlap", shared_percent(atlas),
               list->text, list->count > NAMED_LIMIT ? ", …" : "");
 }
 
@@ -215,7 +233,7 @@ static alp_result check_overlaps(alp_atlas *atlas, char **reason)
         warn_of_few(atlas, &list);
         return ALP_OK;
     }
-    return list.total == 0 ? ALP_OK : tell(&list, "triangles overlap in it", reason);
+    return list.total == 0 ? ALP_OK : tell_overlaps(atlas, &list, reason);
 }
 
 alp_result alpi_keep(alp_atlas *atlas, const uint32_t (*neighbours)[3], char **reason)

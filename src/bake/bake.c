@@ -6,6 +6,7 @@
 #include "bake/check.h"
 #include "bake/files/light_units.h"
 #include "bake/files/outputs.h"
+#include "bake/files/own_files.h"
 #include "bake/files/pack_orm.h"
 #include "bake/gathering.h"
 #include "bake/layer_plan.h"
@@ -123,7 +124,10 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     const char *folder = job.options.maps_folder;
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     const double started = alpi_seconds();
-    const alp_result result = alpi_bake_end_budget(&job, run(&job));
+    alpi_guard guard;
+    alp_result result = alpi_bake_guard(&job, &guard);
+    result = alpi_bake_end_budget(&job, result == ALP_OK ? run(&job) : result);
+    alpi_bake_unguard(&job, &guard);
     finish_report(&job, started);
     alpi_bake_close_checkpoint(&job, result == ALP_OK);
     alpi_set_watch(job.context, former);

@@ -2,6 +2,7 @@
 // The context: allocator with counting, error message, log, lazily started thread pool.
 #include "base/context.h"
 
+#include "base/guard.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 #include "base/tiles/tiles.h"
@@ -32,6 +33,7 @@ struct alp_context {
     uint32_t worker_count;
     struct alpi_pool *pool;
     alpi_watch watch;
+    const alpi_guard *guard;
     struct alpi_loop *loop;
     alpi_tiles tiles;
     alp_ranks ranks;
@@ -263,6 +265,11 @@ struct alpi_pool *alpi_context_pool(alp_context *context)
 struct alpi_watch *alpi_context_watch(alp_context *context)
 {
     return &context->watch;
+}
+
+const alpi_guard **alpi_context_guard(alp_context *context)
+{
+    return &context->guard;
 }
 
 struct alpi_loop **alpi_context_loop(alp_context *context)

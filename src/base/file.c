@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/file.h"
 
+#include "base/guard.h"
 #include "base/memory.h"
 #include "base/tasks.h"
 
@@ -162,6 +163,13 @@ alp_result alpi_file_check_writable(alp_context *context, const char *path, bool
         }
         if (!S_ISREG(status.st_mode)) { // renaming onto a device would replace the device
             return alpi_fail(context, ALP_ERROR_IO, "%s: is not a regular file", path);
+        }
+        if (alpi_guard_holds(*alpi_context_guard(context),
+                             (alpi_file_id){status.st_dev, status.st_ino})) {
+            return alpi_fail(context, ALP_ERROR_IO,
+                             "%s: is a file that the scene refers to, which is never overwritten; "
+                             "give the output another name",
+                             path);
         }
         if (!overwrite) {
             return alpi_fail(context, ALP_ERROR_IO,

@@ -3,7 +3,7 @@
 #ifndef COMMAND_AMBIENCE_PICTURES_H
 #define COMMAND_AMBIENCE_PICTURES_H
 
-#include "fields.h"
+#include "setup/fields.h"
 
 enum { PREVIEW_LIMIT = 8 }; ///< moments side by side
 

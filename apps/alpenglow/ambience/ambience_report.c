@@ -2,7 +2,7 @@
 #include "ambience/ambience_report.h"
 
 #include "output.h"
-#include "report.h"
+#include "printing/report.h"
 
 #include <math.h>
 

@@ -5,8 +5,8 @@
 #include "ambience/ambience_report.h"
 #include "commands/commands.h"
 #include "interrupt.h"
-#include "lighting.h"
 #include "output.h"
+#include "setup/lighting.h"
 #include "views.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
 #include "ambience/flight.h"
 
 #include "ambience/flight_terrain.h"
-#include "messages.h"
-#include "number_lines.h"
+#include "printing/messages.h"
+#include "setup/number_lines.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,18 +3,19 @@
 #include "bake_defaults.h"
 #include "bake_options.h"
 #include "commands/commands.h"
-#include "fields.h"
-#include "findings.h"
 #include "interrupt.h"
-#include "lighting.h"
 #include "output.h"
-#include "report.h"
-#include "report_page.h"
+#include "printing/findings.h"
+#include "printing/report.h"
+#include "printing/report_page.h"
+#include "printing/work.h"
 #include "scale/checkpoints.h"
 #include "session.h"
-#include "work.h"
+#include "setup/fields.h"
+#include "setup/lighting.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static int write_json(const session *s, const alp_lightmap *lightmap, const alp_bake_report *r,
@@ -125,19 +126,22 @@ static int check_report(const command_line *a, const char *output)
     return output_check_json(json, a->values[OPTION_FORCE].given);
 }
 
-/// Names SCENE as such where OUT would overwrite it. Other outputs that are there stop the bake
-/// too.
-static int check_own_input(const command_line *a, const char *output)
+/// Refuses an OUT that is there before the scene is read, which may take long. The bake checks the
+/// files beside it.
+static int check_output(const command_line *a, const char *output)
 {
     char text[512];
-    if (output == NULL || a->values[OPTION_FORCE].given ||
-        !output_is_same(output, a->operands[0]) || access(output, F_OK) != 0) {
+    const bool overwrite = a->values[OPTION_FORCE].given;
+    if (output == NULL) {
         return EXIT_DONE;
+    }
+    if (overwrite || !output_is_same(output, a->operands[0]) || access(output, F_OK) != 0) {
+        return output_check(output, overwrite);
     }
     snprintf(text, sizeof text,
              "%.300s: is SCENE itself, and would be overwritten by the baked scene; name another "
-             "file, or force it (-f)",
-             output);
+             "file (-o OUT%s), or force it (-f)",
+             output, strrchr(output, '.') != NULL ? strrchr(output, '.') : "");
     return failure(text);
 }
 
@@ -150,7 +154,7 @@ static int run(const command_line *a, const char *note)
     int code = bake_options_read(a, &options, &lamps);
     code = code == EXIT_DONE ? checkpoint_read(a, &options, &restart) : code;
     code = code == EXIT_DONE ? probe_file_check(a) : code;
-    code = code == EXIT_DONE ? check_own_input(a, options.output) : code;
+    code = code == EXIT_DONE ? check_output(a, options.output) : code;
     if (code == EXIT_DONE) {
         code = check_report(a, options.output);
     }

@@ -2,7 +2,7 @@
 // alpenglow bench: runs alpenglow-bench, a separate program, which uses internals of the library
 // and calls the ray tracer directly.
 #include "commands/commands.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "programs.h"
 
 #include <stdio.h>

@@ -2,8 +2,8 @@
 // alpenglow compare: differences of two images, or of the maps of two baked assets.
 #include "commands/commands.h"
 #include "compare_assets.h"
-#include "messages.h"
 #include "output.h"
+#include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
 

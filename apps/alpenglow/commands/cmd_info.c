@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // alpenglow info: contents and faults of a scene.
 #include "commands/commands.h"
-#include "fields.h"
-#include "findings.h"
 #include "output.h"
 #include "pictures.h"
-#include "report.h"
+#include "printing/findings.h"
+#include "printing/report.h"
+#include "printing/work.h"
 #include "session.h"
-#include "work.h"
+#include "setup/fields.h"
 
 #include <ctype.h>
 #include <math.h>

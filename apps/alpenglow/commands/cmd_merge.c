@@ -2,7 +2,7 @@
 // alpenglow merge: writes the result of a bake whose shards are complete. It runs the command of the
 // shards again, which reads their tiles instead of tracing rays.
 #include "commands/commands.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "scale/checkpoints.h"
 
 #include <alpenglow/alpenglow.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // alpenglow probes: light probes of a scene.
 #include "commands/commands.h"
-#include "fields.h"
 #include "interrupt.h"
-#include "lighting.h"
 #include "output.h"
-#include "points.h"
+#include "setup/fields.h"
+#include "setup/lighting.h"
+#include "setup/points.h"
 
 #include <stdlib.h>
 #include <string.h>

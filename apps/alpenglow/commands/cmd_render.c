@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // alpenglow render: a picture of a scene from one of its cameras.
-#include "cameras.h"
 #include "commands/commands.h"
-#include "film.h"
 #include "interrupt.h"
-#include "lighting.h"
-#include "lightmaps.h"
-#include "objects.h"
 #include "output.h"
 #include "picture_fields.h"
 #include "session.h"
+#include "setup/cameras.h"
+#include "setup/film.h"
+#include "setup/lighting.h"
+#include "setup/lightmaps.h"
+#include "setup/objects.h"
 #include "views.h"
 
 #include <math.h>
@@ -40,58 +40,61 @@ static field_model model_of(const command_line *a)
     return methods[a->values[OPTION_WITH].choice].field.model;
 }
 
+enum { FIELD = 1 << ALP_RENDER_FIELD, AO = 1 << ALP_RENDER_AO };
+enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
+enum { RADIOSITY = 1 << ALP_RENDER_RADIOSITY, REFERENCE = 1 << ALP_RENDER_REFERENCE };
+enum { TEXELS = LIGHTMAP | RADIOSITY | HEMICUBE };
+enum { LIT = REFERENCE | TEXELS | FIELD, PLAIN = ~HEMICUBE };
+enum { ALBEDO = LIT | 1 << ALP_RENDER_ALBEDO };
+enum { PROBES_ONLY = 1 << 30 };
+
+/// Options that some methods use alone.
+static const struct {
+    option_id id;
+    unsigned methods;
+} read_by[] = {{OPTION_RESOLUTION, (unsigned)PLAIN},
+               {OPTION_SAMPLES, (unsigned)PLAIN},
+               {OPTION_SHOW, HEMICUBE},
+               {OPTION_HEMICUBE, HEMICUBE},
+               {OPTION_SIZE, TEXELS},
+               {OPTION_ATLAS, LIGHTMAP},
+               {OPTION_STITCH, LIGHTMAP},
+               {OPTION_TEXEL_SAMPLES, LIGHTMAP},
+               {OPTION_QUALITY, LIGHTMAP},
+               {OPTION_ERROR, LIGHTMAP},
+               {OPTION_GATHER, LIGHTMAP},
+               {OPTION_BOUNCES, LIT},
+               {OPTION_SUN, LIT},
+               {OPTION_SUN_SIZE, LIT},
+               {OPTION_LAMP, LIT},
+               {OPTION_SPOT, LIT},
+               {OPTION_METALS, ALBEDO},
+               {OPTION_SKY_TURN, LIT},
+               {OPTION_SKY, LIT},
+               {OPTION_SKY_STRENGTH, LIT},
+               {OPTION_DIRECT, REFERENCE | RADIOSITY | FIELD},
+               {OPTION_OBJECT, REFERENCE | FIELD},
+               {OPTION_PROBES, PROBES_ONLY},
+               {OPTION_SPACING, PROBES_ONLY},
+               {OPTION_BOUNDS, PROBES_ONLY},
+               {OPTION_LOOKUP, PROBES_ONLY},
+               {OPTION_OVERLAY, PROBES_ONLY},
+               {OPTION_OCCLUDERS, AO},
+               {OPTION_AO_SAMPLES, AO},
+               {OPTION_AO_DISTANCE, AO},
+               {OPTION_AO_FALLOFF, AO},
+               {OPTION_AO_CONE, AO},
+               {OPTION_AO_DISTRIBUTION, AO}};
+
 /// Refuses options that a method does not use.
 static int check_method(const command_line *a, const alp_render_options *o)
 {
-    enum { FIELD = 1 << ALP_RENDER_FIELD, AO = 1 << ALP_RENDER_AO };
-    enum { LIGHTMAP = 1 << ALP_RENDER_LIGHTMAP, HEMICUBE = 1 << ALP_RENDER_HEMICUBE };
-    enum { RADIOSITY = 1 << ALP_RENDER_RADIOSITY, REFERENCE = 1 << ALP_RENDER_REFERENCE };
-    enum { TEXELS = LIGHTMAP | RADIOSITY | HEMICUBE };
-    enum { LIT = REFERENCE | TEXELS | FIELD, PLAIN = ~HEMICUBE };
-    enum { ALBEDO = LIT | 1 << ALP_RENDER_ALBEDO };
-    enum { PROBES_ONLY = 1 << 30 };
-    static const struct {
-        const char *name;
-        option_id id;
-        unsigned methods; // methods that use it
-    } read_by[] = {{"--resolution", OPTION_RESOLUTION, (unsigned)PLAIN},
-                   {"--samples", OPTION_SAMPLES, (unsigned)PLAIN},
-                   {"--show", OPTION_SHOW, HEMICUBE},
-                   {"--hemicube", OPTION_HEMICUBE, HEMICUBE},
-                   {"--size", OPTION_SIZE, TEXELS},
-                   {"--atlas", OPTION_ATLAS, LIGHTMAP},
-                   {"--stitch", OPTION_STITCH, LIGHTMAP},
-                   {"--texel-samples", OPTION_TEXEL_SAMPLES, LIGHTMAP},
-                   {"--quality", OPTION_QUALITY, LIGHTMAP},
-                   {"--error", OPTION_ERROR, LIGHTMAP},
-                   {"--gather", OPTION_GATHER, LIGHTMAP},
-                   {"--bounces", OPTION_BOUNCES, LIT},
-                   {"--sun", OPTION_SUN, LIT},
-                   {"--sun-size", OPTION_SUN_SIZE, LIT},
-                   {"--lamp", OPTION_LAMP, LIT},
-                   {"--spot", OPTION_SPOT, LIT},
-                   {"--metals", OPTION_METALS, ALBEDO},
-                   {"--sky-turn", OPTION_SKY_TURN, LIT},
-                   {"--sky", OPTION_SKY, LIT},
-                   {"--sky-strength", OPTION_SKY_STRENGTH, LIT},
-                   {"--direct", OPTION_DIRECT, REFERENCE | RADIOSITY | FIELD},
-                   {"--object", OPTION_OBJECT, REFERENCE | FIELD},
-                   {"--probes", OPTION_PROBES, PROBES_ONLY},
-                   {"--spacing", OPTION_SPACING, PROBES_ONLY},
-                   {"--bounds", OPTION_BOUNDS, PROBES_ONLY},
-                   {"--lookup", OPTION_LOOKUP, PROBES_ONLY},
-                   {"--overlay", OPTION_OVERLAY, PROBES_ONLY},
-                   {"--occluders", OPTION_OCCLUDERS, AO},
-                   {"--ao-samples", OPTION_AO_SAMPLES, AO},
-                   {"--ao-distance", OPTION_AO_DISTANCE, AO},
-                   {"--ao-falloff", OPTION_AO_FALLOFF, AO},
-                   {"--ao-cone", OPTION_AO_CONE, AO},
-                   {"--ao-distribution", OPTION_AO_DISTRIBUTION, AO}};
     const unsigned own =
         1u << o->method | (model_of(a) == FIELD_PROBES ? (unsigned)PROBES_ONLY : 0u);
     for (size_t i = 0; i < sizeof read_by / sizeof *read_by; i++) {
         if ((read_by[i].methods & own) == 0 && a->values[read_by[i].id].given) {
-            return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s", read_by[i].name,
+            return usage_error(COMMAND_RENDER, "%s: does not apply to --with %s",
+                               option_name(COMMAND_RENDER, read_by[i].id),
                                a->values[OPTION_WITH].text);
         }
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // alpenglow sample: irradiance of a model of light at points of space.
 #include "commands/commands.h"
-#include "fields.h"
 #include "interrupt.h"
-#include "lighting.h"
-#include "points.h"
+#include "setup/fields.h"
+#include "setup/lighting.h"
+#include "setup/points.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow sh: nine spherical harmonics of an environment, and its irradiance as an image.
 #include "commands/commands.h"
-#include "messages.h"
 #include "output.h"
+#include "printing/messages.h"
 #include "sh_values.h"
 
 #include <alpenglow/alpenglow.h>

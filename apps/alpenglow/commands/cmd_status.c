@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // alpenglow status: what the checkpoint of a bake says.
 #include "commands/commands.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "output.h"
 
 #include <alpenglow/alpenglow.h>

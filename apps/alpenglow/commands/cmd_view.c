@@ -2,7 +2,7 @@
 // alpenglow view: runs alpenglow-view, a program of its own, because it needs OpenGL and the rest
 // of the command does not.
 #include "commands/commands.h"
-#include "messages.h"
+#include "printing/messages.h"
 #include "programs.h"
 
 #include <string.h>

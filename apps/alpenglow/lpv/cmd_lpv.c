@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // alpenglow lpv: light that is propagated anew in each of some frames.
-#include "cameras.h"
 #include "commands/commands.h"
 #include "interrupt.h"
-#include "lighting.h"
 #include "lpv/lpv_pictures.h"
 #include "lpv/lpv_report.h"
 #include "output.h"
+#include "setup/cameras.h"
+#include "setup/lighting.h"
 #include "views.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "lpv/lpv_report.h"
 
 #include "output.h"
-#include "report.h"
+#include "printing/report.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "lpv/lpv_run.h"
 
-#include "lighting.h"
+#include "setup/lighting.h"
 #include "views.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { TEXT_SIZE = 160 };
 
@@ -28,13 +29,13 @@ int usage_error(command_id command, const char *format, ...)
 
 // --- values --------------------------------------------------------------------------------------
 
-/// Index of `word` among "a|b|c", or −1.
+/// Index of `word` among "a|b|c" in any case of letters, or −1.
 static int find_choice(const char *choices, const char *word, size_t length)
 {
     int index = 0;
     for (const char *at = choices; at != NULL; index++) {
         size_t choice_length = strcspn(at, "|");
-        if (choice_length == length && strncmp(at, word, length) == 0) {
+        if (choice_length == length && strncasecmp(at, word, length) == 0) {
             return index;
         }
         at = at[choice_length] == '|' ? at + choice_length + 1 : NULL;
@@ -47,7 +48,7 @@ static int find_synonym(const option *o, const char *word, size_t length)
 {
     for (const char *at = o->synonyms; at != NULL;) {
         const size_t end = strcspn(at, "|"), name = strcspn(at, "=");
-        if (name == length && strncmp(at, word, length) == 0) {
+        if (name == length && strncasecmp(at, word, length) == 0) {
             return find_choice(o->choices, at + name + 1, end - name - 1);
         }
         at = at[end] == '|' ? at + end + 1 : NULL;
@@ -71,9 +72,14 @@ static int parse_choice(command_id command, const option *o, const char *text, s
     }
     char nearest[TEXT_SIZE];
     choice_nearest(o->choices, text, length, nearest, sizeof nearest);
-    return usage_error(command, "%s: '%.*s' is not one of %s%s%s%s", o->name, (int)length, text,
-                       o->choices, nearest[0] != '\0' ? "; did you mean " : "", nearest,
-                       nearest[0] != '\0' ? "?" : "");
+    const char *proposed = nearest[0] != '\0' ? nearest : o->example;
+    return usage_error(command, "%s: '%.*s' is not one of %s%s%s%s%s%s", o->name, (int)length, text,
+                       o->choices,
+                       nearest[0] != '\0' ? "; did you mean "
+                       : proposed != NULL ? "; give one, such as "
+                                          : "",
+                       proposed != NULL ? o->name : "", proposed != NULL ? " " : "",
+                       proposed != NULL ? proposed : "", nearest[0] != '\0' ? "?" : "");
 }
 
 static int parse_list(command_id command, const option *o, const char *text, option_value *value)
@@ -91,38 +97,45 @@ static int parse_list(command_id command, const option *o, const char *text, opt
     return EXIT_DONE;
 }
 
+/// Reads the number alone. @param outside out: whether it is out of the option's range
+static number_result read_number(const option *o, const char *text, option_value *value,
+                                 bool *outside)
+{
+    number_result result;
+    if (o->kind == KIND_REAL) {
+        result = number_parse_real(text, &value->real);
+        *outside = value->real < o->minimum || value->real > o->maximum;
+        return result;
+    }
+    const bool negative = o->kind == KIND_WHOLE && text[0] == '-' &&
+                          number_parse_whole(text + 1, &value->whole) != NUMBER_NONE;
+    result = negative               ? NUMBER_TOO_LARGE
+             : o->kind == KIND_SIZE ? number_parse_size(text, &value->whole)
+             : o->sides             ? number_parse_side(text, &value->whole)
+                                    : number_parse_whole(text, &value->whole);
+    // as whole numbers: a double cannot hold all of them
+    *outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
+    return result;
+}
+
 static int parse_number(command_id command, const option *o, const char *text, option_value *value)
 {
     char range[TEXT_SIZE];
+    bool outside = false;
     option_range(o, range, sizeof range);
     value->choice = find_choice(o->choices, text, strlen(text));
     if (value->choice >= 0) {
         return EXIT_DONE;
     }
-    number_result result = NUMBER_OK;
-    bool outside = false;
-    if (o->kind == KIND_WHOLE) {
-        bool negative =
-            text[0] == '-' && number_parse_whole(text + 1, &value->whole) != NUMBER_NONE;
-        result = negative   ? NUMBER_TOO_LARGE
-                 : o->sides ? number_parse_side(text, &value->whole)
-                            : number_parse_whole(text, &value->whole);
-        // as whole numbers: a double cannot hold all of them
-        outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
-    } else if (o->kind == KIND_SIZE) {
-        result = number_parse_size(text, &value->whole);
-        outside = value->whole < (uint64_t)o->minimum || value->whole > (uint64_t)o->maximum;
-    } else {
-        result = number_parse_real(text, &value->real);
-        outside = value->real < o->minimum || value->real > o->maximum;
-    }
+    const number_result result = read_number(o, text, value, &outside);
     if (result == NUMBER_NONE) {
-        return usage_error(command, "%s: '%s' is not a %s; give %s", o->name, text,
-                           o->sides                ? "side of a square, such as 1024 or 1k"
+        const char *form = o->example != NULL ? o->example : o->value; // "N" of "N|auto"
+        return usage_error(command, "%s: '%s' is not a %s; give %s %.*s (%s)", o->name, text,
+                           o->sides                ? "side of a square"
                            : o->kind == KIND_WHOLE ? "whole number"
                            : o->kind == KIND_SIZE  ? "size"
                                                    : "number",
-                           range);
+                           o->name, (int)strcspn(form, "|"), form, range);
     }
     if (result == NUMBER_TOO_LARGE || outside) {
         return usage_error(command, "%s: %s is out of range; give %s", o->name, text, range);
@@ -130,11 +143,19 @@ static int parse_number(command_id command, const option *o, const char *text, o
     return EXIT_DONE;
 }
 
+/// Refuses an option whose value is missing or empty.
+static int refuse_no_value(command_id command, const option *o)
+{
+    return usage_error(command, "%s needs a value: %s%s%s%s%s", o->name, o->value,
+                       o->example != NULL ? ", such as " : "", o->example != NULL ? o->name : "",
+                       o->example != NULL ? " " : "", o->example != NULL ? o->example : "");
+}
+
 static int parse_value(command_id command, const option *o, const char *text, option_value *value)
 {
     value->text = text;
     if (*text == '\0') {
-        return usage_error(command, "%s needs a value: %s", o->name, o->value);
+        return refuse_no_value(command, o);
     }
     switch (o->kind) {
     case KIND_CHOICE:
@@ -169,14 +190,35 @@ const option *option_find(command_id command, const char *name, size_t length)
     return NULL;
 }
 
-const char *option_find_given(const option_value *values, const named_option *named, size_t count)
+static const option *find_by_id(command_id command, option_id id)
+{
+    const option *o = option_after(command, NULL);
+    while (o != NULL && o->id != id) {
+        o = option_after(command, o);
+    }
+    return o;
+}
+
+const char *option_name(command_id command, option_id id)
+{
+    const option *o = find_by_id(command, id);
+    return o != NULL ? o->name : "";
+}
+
+const char *option_find_given(const command_line *a, const option_id *ids, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        if (values[named[i].id].given) {
-            return named[i].name;
+        if (a->values[ids[i]].given) {
+            return option_name(a->command, ids[i]);
         }
     }
     return NULL;
+}
+
+void option_give(command_line *a, option_id id, const char *text)
+{
+    a->values[id].given = true;
+    (void)parse_value(a->command, find_by_id(a->command, id), text, &a->values[id]);
 }
 
 /// The first command that has this option, or COMMAND_COUNT.
@@ -271,7 +313,7 @@ static int parse_option(command_id command, int count, char **words, int *at, co
     if (text == NULL) {
         const char *next = *at + 1 < count ? words[*at + 1] : NULL;
         if (next == NULL || option_find(command, next, strlen(next)) != NULL) {
-            return usage_error(command, "%s needs a value: %s", o->name, o->value);
+            return refuse_no_value(command, o);
         }
         text = next;
         *at += 1;

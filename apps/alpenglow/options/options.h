@@ -226,6 +226,7 @@ typedef struct option {
     double minimum, maximum;
     const char *unit;    // "metres", or NULL
     const char *initial; // the default, parsed like a given value; or NULL
+    const char *example; // a value for messages, or NULL
     const char *help;    // for options not built yet: the alternative
 } option;
 
@@ -239,14 +240,6 @@ typedef struct option_value {
 } option_value;
 
 enum { REPEAT_LIMIT = 64 }; ///< of all options that repeat together
-
-/// An option by the name that messages have.
-typedef struct named_option {
-    option_id id;
-    const char *name;
-} named_option;
-/// The name of the first of these options that is given, or NULL.
-const char *option_find_given(const option_value *values, const named_option *named, size_t count);
 
 /// A parsed command line.
 typedef struct command_line {
@@ -290,6 +283,12 @@ int command_operand_limit(command_id command);
 /// Whether Ctrl-C ends the command cleanly with EXIT_INTERRUPTED.
 bool command_interruptible(command_id command);
 
+/// The name of an option of the command.
+const char *option_name(command_id command, option_id id);
+/// The name of the first of these options that is given, or NULL.
+const char *option_find_given(const command_line *arguments, const option_id *ids, size_t count);
+/// Gives an option a value, as if it stood on the command line. @param text a value that it takes
+void option_give(command_line *arguments, option_id id, const char *text);
 /// The option of this name that the command has, or NULL.
 const option *option_find(command_id command, const char *name, size_t length);
 /// Writes the range of a numeric option, such as "1 to 64 texels, or auto".

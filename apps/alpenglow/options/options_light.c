@@ -117,6 +117,7 @@ static const option rows[] = {
      .kind = KIND_CHOICE,
      .name = "--lightmap-as",
      .value = "emissive|moz|extras|three|babylon",
+     .example = "emissive",
      .choices = "emissive|moz|extras|three|babylon",
      .help = "Form of the light in -o, with its own coordinate set. Default emissive; three "
              "and babylon by the name of -o. It includes the light of the file's lamps. Switch "
@@ -170,6 +171,7 @@ static const option rows[] = {
      .kind = KIND_WHOLE,
      .name = "--bounces",
      .value = "N|converge",
+     .example = "3",
      .minimum = 0,
      .maximum = 1000,
      .choices = "converge",
@@ -193,11 +195,12 @@ static const option rows[] = {
              "their diffuse colour show metals black either way."},
     {.id = OPTION_SKY,
      .commands = SKY_COMMANDS,
-     .common = IN_BAKE,
+     .common = IN_BAKE | IN_RENDER,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sky",
      .value = "FILE|L|R,G,B|R,G,B/R,G,B|clear",
+     .example = "1,1,1",
      .help = "Light from outside. Default: black.\n"
              "FILE: an equirectangular .hdr or .exr.\n"
              "R,G,B: radiance from every direction, W/(sr m2), linear. L: the same in all "
@@ -227,11 +230,12 @@ static const option rows[] = {
      .help = "Factor on the sky's radiance."},
     {.id = OPTION_SUN,
      .commands = LIGHT_COMMANDS,
-     .common = IN_BAKE,
+     .common = IN_BAKE | IN_RENDER,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .name = "--sun",
      .value = "AZ,EL,LUX",
+     .example = "150,40,60000",
      .help = "A sun beside the lights of the scene. AZ: azimuth in degrees from +Z "
              "towards +X. EL: elevation in degrees. LUX: illuminance of a surface that "
              "faces it."},
@@ -248,12 +252,13 @@ static const option rows[] = {
              "for --sun, and 0 for directional lights of the scene."},
     {.id = OPTION_LAMP,
      .commands = LIGHT_COMMANDS,
-     .common = IN_BAKE,
+     .common = IN_BAKE | IN_RENDER,
      .group = GROUP_LIGHT,
      .kind = KIND_TEXT,
      .repeats = true,
      .name = "--lamp",
      .value = "X,Y,Z,CANDELA[,R,G,B]",
+     .example = "0,2,0,100",
      .help = "A point light beside the lights of the scene: position in metres, "
              "intensity, linear colour (default 1,1,1). May be repeated: up to 64 "
              "--lamp and --spot together."},

@@ -18,6 +18,7 @@ static const option rows[] = {
              "current folder."},
     {.id = OPTION_OUTPUT,
      .commands = IN_RENDER,
+     .common = IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
      .name = "-o",
@@ -60,9 +61,9 @@ static const option rows[] = {
      .kind = KIND_LIST,
      .name = "--maps",
      .value = "LIST",
+     .example = "light",
      .choices = "ao|bent|light|sh|direction|probes",
-     .synonyms = "lightmap=light|lightmaps=light|lighting=light|occlusion=ao|ambient-occlusion=ao|"
-                 "AO=ao",
+     .synonyms = "lightmap=light|lightmaps=light|lighting=light|occlusion=ao|ambient-occlusion=ao",
      .initial = "ao",
      .help = "Maps to bake, with commas between: ao, light and others. An option that only light "
              "has, such as --sky, --sun or --bounces, "
@@ -85,6 +86,7 @@ static const option rows[] = {
      .kind = KIND_TEXT,
      .name = "--maps-dir",
      .value = "DIR",
+     .example = "maps",
      .help = "Folder for each map as files, made if missing. Float RGBA, A is "
              "coverage, first row v = 0. Further pages are ao.1.exr and so on.\n"
              "ao: ao.exr, ao.png, ao.error.exr (standard error of each texel), "
@@ -171,7 +173,7 @@ static const option rows[] = {
      .commands =
          RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW |
          IN_STATUS | IN_MERGE,
-     .common = IN_BAKE,
+     .common = IN_BAKE | IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
      .name = "-f",

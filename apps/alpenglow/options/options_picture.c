@@ -5,15 +5,17 @@
 static const option rows[] = {
     {.id = OPTION_WITH,
      .commands = IN_RENDER,
+     .common = IN_RENDER,
      .group = GROUP_PICTURE,
      .kind = KIND_CHOICE,
      .name = "--with",
      .value = "METHOD",
      .choices = "ao|albedo|reference|lightmap|radiosity|hemicube|constant|hemisphere|ground-map|"
                 "ambient-cube|environment|probes|ambience|lpv",
-     .help = "Method of rendering, required. reference, radiosity, lightmap and the models of "
-             "ambient light see through blended and transmissive surfaces; the others cut them at "
-             "alpha 0.5 or take them as opaque.\n"
+     .help = "Method of rendering, required: reference, lightmap, radiosity, ao, albedo or another "
+             "one.\n"
+             "reference, radiosity, lightmap and the models of ambient light see through blended "
+             "and transmissive surfaces; the others cut them at alpha 0.5 or take them as opaque.\n"
              "reference: all light by path tracing.\n"
              "radiosity: direct light at each pixel, bounced light from a radiosity on "
              "texels. Less noise than reference at equal --samples.\n"
@@ -36,12 +38,13 @@ static const option rows[] = {
              "lamps and suns is added at each pixel, with shadows (--direct)."},
     {.id = OPTION_CAMERA,
      .commands = IN_RENDER | IN_VIEW | IN_LPV,
+     .common = IN_RENDER,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--camera",
      .value = "N|auto|PX,PY,PZ,TX,TY,TZ,VFOV",
      .initial = "0",
-     .help = "Camera of the picture.\n"
+     .help = "Camera of the picture: one of the scene, auto, or a place with a target.\n"
              "N: camera of the scene, from 0.\n"
              "PX,...: position and target in metres, and the vertical field of view in "
              "degrees, 0.001 to 179.\n"
@@ -49,6 +52,7 @@ static const option rows[] = {
              "cameras."},
     {.id = OPTION_RESOLUTION,
      .commands = IN_RENDER | IN_VIEW,
+     .common = IN_RENDER,
      .group = GROUP_PICTURE,
      .kind = KIND_TEXT,
      .name = "--resolution",
@@ -57,6 +61,7 @@ static const option rows[] = {
      .help = "Size of the picture in pixels, each side 1 to 16384."},
     {.id = OPTION_SAMPLES,
      .commands = IN_RENDER,
+     .common = IN_RENDER,
      .group = GROUP_PICTURE,
      .kind = KIND_WHOLE,
      .name = "--samples",
@@ -157,6 +162,7 @@ static const option rows[] = {
              "is the unfolded cross of 2 N x 2 N, instead of --resolution."},
     {.id = OPTION_EXPOSURE,
      .commands = IN_RENDER | IN_VIEW,
+     .common = IN_RENDER,
      .group = GROUP_PICTURE,
      .kind = KIND_REAL,
      .name = "--exposure",

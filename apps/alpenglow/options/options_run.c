@@ -78,12 +78,20 @@ static const option rows[] = {
              "results of info and compare."},
 
     {.id = OPTION_HELP,
-     .commands = SCENE_COMMANDS | IN_COMPARE | IN_SH | IN_BENCH | IN_STATUS | IN_MERGE,
+     .commands = RAY_COMMANDS,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-h",
      .alias = "--help",
-     .help = "Print help. --help all: every option, in full."},
+     .help = "Print the options that people use. --help all: every option, in full."},
+    {.id = OPTION_HELP,
+     .commands = (SCENE_COMMANDS & ~RAY_COMMANDS) | IN_COMPARE | IN_SH | IN_BENCH | IN_STATUS |
+                 IN_MERGE,
+     .group = GROUP_RUN,
+     .kind = KIND_FLAG,
+     .name = "-h",
+     .alias = "--help",
+     .help = "Print help: every option, in full."},
 };
 
 const option_part option_part_run = {rows, sizeof rows / sizeof *rows};

@@ -30,6 +30,7 @@ static const option rows[] = {
              "by a limit of rays, with the error that it has then."},
     {.id = OPTION_QUALITY,
      .commands = IN_RENDER,
+     .common = IN_RENDER,
      .group = GROUP_LIGHT,
      .kind = KIND_CHOICE,
      .name = "--quality",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scale/checkpoints.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <errno.h>
 #include <jansson.h>

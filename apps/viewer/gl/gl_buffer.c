@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_buffer.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <stdio.h>
 

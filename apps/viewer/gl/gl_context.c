@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_context.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <epoxy/egl.h>

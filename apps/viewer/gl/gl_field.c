@@ -4,8 +4,8 @@
 #include "field_objects.h"
 #include "field_points.h"
 #include "gl/gl_buffer.h"
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <alpenglow/geometry.h>

@@ -2,8 +2,8 @@
 #include "gl/gl_lightmap.h"
 
 #include "gl/gl_buffer.h"
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <stdlib.h>

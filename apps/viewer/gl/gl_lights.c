@@ -3,8 +3,8 @@
 
 #include "gl/gl_buffer.h"
 #include "light_views.h"
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <math.h>

@@ -2,9 +2,9 @@
 #include "gl/gl_lpv.h"
 
 #include "gl/gl_program.h"
-#include "messages.h"
 #include "options/options.h"
 #include "passes/shader_list.h"
+#include "printing/messages.h"
 
 #include <alpenglow/shared_constants.h>
 

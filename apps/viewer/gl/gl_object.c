@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_object.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 int gl_object_place(alp_context *context, const alp_render_object *what, uint32_t first_triangle,
                     gl_object *object)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_probes.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_program.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 
 #include "gl/gl_buffer.h"
 #include "gl/gl_textures.h"
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <limits.h>
 #include <stdlib.h>

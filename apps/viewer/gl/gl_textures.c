@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl_textures.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <math.h>
 #include <stdlib.h>

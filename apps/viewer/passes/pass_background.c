@@ -4,9 +4,9 @@
 #include "gl/gl_buffer.h"
 #include "gl/gl_textures.h"
 #include "light_views.h"
-#include "messages.h"
 #include "options/options.h"
 #include "passes/shader_list.h"
+#include "printing/messages.h"
 #include "shaders/bindings.h"
 
 #include <math.h>

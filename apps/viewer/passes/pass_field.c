@@ -2,9 +2,9 @@
 #include "passes/pass_field.h"
 
 #include "field_points.h"
-#include "messages.h"
 #include "options/options.h"
 #include "passes/shader_list.h"
+#include "printing/messages.h"
 
 #include <limits.h>
 #include <stdlib.h>

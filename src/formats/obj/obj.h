@@ -44,6 +44,7 @@ typedef struct alpi_obj_surface {
 
 /// A text of a file, as UTF-8.
 typedef struct alpi_obj_file {
+    char *name;     // of a library: its path within the asset's folder; of the OBJ itself NULL
     char *folder;   // of a library within the asset's: with a slash, or ""; of the OBJ itself NULL
     uint8_t *bytes; // what is released
     const char *text; // behind a byte-order mark

@@ -51,8 +51,9 @@ static alp_result read_library(alpi_mtl_reader *r, const char *path, const char 
     ALP_TRY(alpi_file_read(context, path, LIBRARY_LIMIT, &bytes, &size));
     r->obj->hash = alpi_hash_bytes(r->obj->hash, bytes, size);
     ALP_TRY(alpi_obj_file_take(context, bytes, size, &file));
+    file.name = alpi_copy_string(context, inner);
     file.folder = alpi_path_folder(context, inner);
-    if (file.folder == NULL) {
+    if (file.name == NULL || file.folder == NULL) {
         alpi_obj_file_destroy(context, &file);
         return ALP_ERROR_OUT_OF_MEMORY;
     }

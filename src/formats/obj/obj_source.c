@@ -45,6 +45,7 @@ alp_result alpi_obj_file_take(alp_context *context, uint8_t *bytes, size_t size,
 
 void alpi_obj_file_destroy(alp_context *context, alpi_obj_file *file)
 {
+    alpi_release(context, file->name);
     alpi_release(context, file->folder);
     alpi_release(context, file->bytes);
     *file = (alpi_obj_file){0};

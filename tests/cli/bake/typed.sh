@@ -44,3 +44,9 @@ for option in '--sky 1' '--sun 0,45,9' '--lamp 0,1,0,9' '--spot 0,1,0,0,0,0,9,1,
         echo "failed: $option"
     grep -ac emissiveTexture option.glb
 done
+echo "== what other formats hold"
+bake box.obj lit.obj --sky 1 $lit
+bake flat.dae shone.dae --sky 1 $lit
+bake room.gltf both.glb --maps ao,light --maps-dir both --lightmap-as emissive --ao-samples 4 $lit
+grep -aco 'emissiveTexture' both.glb
+ls both

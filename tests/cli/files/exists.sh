@@ -16,3 +16,10 @@ alpenglow bake builtin:sphere-plane $quick -o out.glb --maps-dir maps --json out
 alpenglow render builtin:sphere-plane --with albedo --resolution 8x8 -q -o out.png --force; echo $?
 grep -l precious out.glb out.png out.json out.html maps/ao.exr
 ls . maps
+echo "== before the scene is read"
+alpenglow bake absent.glb -o out.glb; echo $?
+echo "== SCENE.baked.glb"
+alpenglow bake builtin:sphere-plane $quick -o scene.baked.glb
+alpenglow bake scene.baked.glb $quick; echo $?
+mkdir below
+(cd below && alpenglow bake ../scene.baked.glb $quick; echo $?; ls)

@@ -25,3 +25,11 @@ done
 # Pixels do not depend on options of a new map where surfaces are black.
 alpenglow render 0.glb --with lightmap $picture --size 16 --texel-samples 1 -q -o black.exr
 cmp 0.exr black.exr && echo "emission alone"
+alpenglow render 0.glb --with lightmap $picture --quality preview -f -o other.exr 2>&1 | grep ^note
+alpenglow render 1.glb --with lightmap $picture --lamp 0,0.4,0,1 --quality preview -f -o other.exr 2>&1 | grep ^note
+echo "== occlusion is no light map"
+alpenglow bake builtin:sphere-plane --size 32 --ao-samples 4 -q -o ao.glb
+alpenglow render ao.glb --with lightmap $picture -f -o other.exr; echo $?
+for words in "--quality preview --gather hemicube" "--error 1 --gather hemicube"; do
+    alpenglow render builtin:cornell --with lightmap $picture $words -f -o other.exr; echo $?
+done

@@ -28,3 +28,23 @@ try info --json= scene.glb
 try info scene.glb --json missing/out.json
 try info ./out.json --json out.json
 try info -- --json
+for word in Light LIGHT,Ao '' 'ao light' all; do try bake scene.glb --maps "$word"; done
+try bake scene.glb --size 1024px
+try bake scene.glb --sky
+try bake scene.glb --maps
+try bake scene.glb --quality preview --gather hemicube --maps light
+try bake scene.glb --quality preview --gather paths --maps light
+try bake scene.glb --error 1 --bounces 0
+try bake scene.glb --error 1 --direct only
+try bake scene.glb --error 1 --maps light --samples 64
+try --maps=light scene.glb
+# files that stand alone
+for ending in fbx zip ifc dwg skp max ma blend usdz stl mtl png; do
+    : >file.$ending
+    try file.$ending
+    try bake file.$ending
+done
+try absent.fbx
+try folder/absent
+printf '{"asset":{"version":"2.0"}}' >scene.json
+try scene.json

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "fields.h"
+#include "setup/fields.h"
 
-#include "lighting.h"
+#include "setup/lighting.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Messages that differ in values and places alone, which are printed in one line.
-#include "alike.h"
+#include "printing/alike.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The doctor's findings, as text and as JSON.
-#include "findings.h"
+#include "printing/findings.h"
 
-#include "alike.h"
+#include "printing/alike.h"
 #include "output.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef COMMAND_LIGHTING_H
 #define COMMAND_LIGHTING_H
 
-#include "lamps.h"
+#include "setup/lamps.h"
 
 /// Reads the arguments, except the image of the sky.
 /// @param lamps out: borrowed by `options`
@@ -24,5 +24,8 @@ uint32_t lighting_bounces(const command_line *arguments);
 /// --quality or --error, as a share; 0 without them. @return EXIT_DONE, or EXIT_USAGE: both are
 /// given
 int error_read(const command_line *arguments, float *error);
+/// Refuses a wanted error of light where the number of rays is fixed, or the error is not known.
+/// @param samples the command's option for rays per texel
+int error_check_light(const command_line *arguments, option_id samples);
 
 #endif

@@ -2,7 +2,7 @@
 // The summary of alpenglow bake.
 #include "bake_options.h"
 #include "output.h"
-#include "report.h"
+#include "printing/report.h"
 
 #include <math.h>
 #include <stdio.h>

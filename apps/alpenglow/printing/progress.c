@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Progress of long work, on standard error.
-#include "progress.h"
+#include "printing/progress.h"
 
 #include <jansson.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "number_lines.h"
+#include "setup/number_lines.h"
 
-#include "messages.h"
 #include "options/options.h"
+#include "printing/messages.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The --json report of a bake.
-#include "report.h"
+#include "printing/report.h"
 
-#include "findings.h"
 #include "output.h"
+#include "printing/findings.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Options of development: --exposure, --tone and --white-balance.
-#include "film.h"
+#include "setup/film.h"
 
 int film_refuse(const command_line *a, const char *output)
 {

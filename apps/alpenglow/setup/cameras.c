@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cameras.h"
+#include "setup/cameras.h"
 
 #include <math.h>
 #include <stdio.h>

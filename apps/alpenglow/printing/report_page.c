@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The --report page of a bake: collects its contents for the library.
-#include "report_page.h"
+#include "printing/report_page.h"
 
 #include "output.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "points.h"
+#include "setup/points.h"
 
-#include "number_lines.h"
+#include "setup/number_lines.h"
 
 #include <math.h>
 #include <stdlib.h>

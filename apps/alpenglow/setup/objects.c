@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "objects.h"
+#include "setup/objects.h"
 
-#include "messages.h"
+#include "printing/messages.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lamps.h"
+#include "setup/lamps.h"
 
 #include <math.h>
 
@@ -41,8 +41,9 @@ static int read_lamp(const command_line *a, const char *text, const double origi
     double numbers[4]; // X, Y, Z, CANDELA
     if (!read_numbers(text, numbers, 4, lamp->color) || numbers[3] < 0.0) {
         return usage_error(a->command,
-                           "--lamp: '%s' is not a lamp; give X,Y,Z,CANDELA or "
-                           "X,Y,Z,CANDELA,R,G,B: metres, -1e9 to 1e9, candela and linear colour,"
+                           "--lamp: '%s' is not a lamp; give X,Y,Z,CANDELA, such as "
+                           "--lamp 0,2,0,100, or X,Y,Z,CANDELA,R,G,B: metres, -1e9 to 1e9, candela "
+                           "and linear colour,"
                            " 0 to 1e9",
                            text);
     }

@@ -4,8 +4,8 @@
 #ifndef COMMAND_MESSAGES_H
 #define COMMAND_MESSAGES_H
 
-#include "alike.h"
-#include "progress.h"
+#include "printing/alike.h"
+#include "printing/progress.h"
 
 #include <alpenglow/context.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lighting.h"
+#include "setup/lighting.h"
 
 #include "interrupt.h"
 #include "output.h"
@@ -58,15 +58,17 @@ static int read_sky(const command_line *a, alp_sky_options *sky)
     if (strcmp(value->text, "clear") == 0) {
         sky->kind = ALP_SKY_CLEAR;
         if (!a->values[OPTION_SUN].given) {
-            return usage_error(a->command, "--sky clear: needs a sun; give --sun AZ,EL,LUX");
+            return usage_error(a->command,
+                               "--sky clear: needs a sun; give --sun AZ,EL,LUX, such as "
+                               "--sun 150,40,60000");
         }
     } else if (names_picture(value->text)) {
         sky->kind = ALP_SKY_IMAGE;
     } else if (!read_colors(value->text, sky)) {
         return usage_error(a->command,
-                           "--sky: '%s' is not a sky; give a .hdr or .exr file, one number, R,G,B, "
-                           "R,G,B/R,G,B (above and below the horizon), numbers 0 to 1e9, or "
-                           "clear",
+                           "--sky: '%s' is not a sky; give --sky 1,1,1 or another R,G,B, one "
+                           "number, R,G,B/R,G,B (above and below the horizon), numbers 0 to 1e9, "
+                           "a .hdr or .exr file, or clear",
                            value->text);
     }
     if (sky->kind != ALP_SKY_IMAGE && a->values[OPTION_SKY_TURN].given) {
@@ -87,8 +89,9 @@ static int read_sun(const command_line *a, alp_sun_options *sun)
     if (end == NULL || *end != '\0' || fabs(numbers[0]) > 360.0 || fabs(numbers[1]) > 90.0 ||
         numbers[2] < 0.0) {
         return usage_error(a->command,
-                           "--sun: '%s' is not a sun; give AZ,EL,LUX: degrees from +Z towards "
-                           "+X, degrees above the horizon, and lux, 0 to 1e9",
+                           "--sun: '%s' is not a sun; give AZ,EL,LUX, such as --sun "
+                           "150,40,60000: degrees from +Z towards +X, degrees above the horizon, "
+                           "and lux, 0 to 1e9",
                            value->text);
     }
     sun->azimuth = (float)(numbers[0] * radians);
@@ -187,6 +190,37 @@ int error_read(const command_line *a, float *error)
                ? usage_error(a->command, "--quality %s is --error %g; give one of them",
                              quality->text, 100.0 * (double)*error)
                : EXIT_DONE;
+}
+
+int error_check_light(const command_line *a, option_id samples)
+{
+    const option_value *values = a->values;
+    const char *name = values[OPTION_QUALITY].given ? "--quality" : "--error";
+    const int gather = values[OPTION_GATHER].choice;
+    if (gather == (int)ALP_GATHER_HEMICUBE) {
+        return usage_error(a->command,
+                           "%s: not with --gather hemicube, which has no estimate of its error; "
+                           "leave one of them out",
+                           name);
+    }
+    if (values[samples].given) {
+        return usage_error(a->command,
+                           "%s: not with %s, which fixes the rays; leave one of them out", name,
+                           option_name(a->command, samples));
+    }
+    if (gather == (int)ALP_GATHER_PATHS) {
+        return usage_error(a->command,
+                           "%s: not with --gather paths, whose number is fixed; give %s N instead",
+                           name, option_name(a->command, samples));
+    }
+    const bool only = a->command == COMMAND_BAKE && values[OPTION_DIRECT].given &&
+                      strcmp(values[OPTION_DIRECT].text, "only") == 0;
+    if (only || lighting_bounces(a) == 0) {
+        return usage_error(
+            a->command, "%s: not with %s, whose samples are fixed; give %s N instead", name,
+            only ? "--direct only" : "--bounces 0", option_name(a->command, samples));
+    }
+    return EXIT_DONE;
 }
 
 uint32_t lighting_bounces(const command_line *a)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The estimated work of a bake, in two digits.
-#include "work.h"
+#include "printing/work.h"
 
 #include "output.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Messages of the library. Those of one kind are printed in one line; warnings are kept for the
 // report.
-#include "messages.h"
+#include "printing/messages.h"
 
 #include "options/options.h"
 

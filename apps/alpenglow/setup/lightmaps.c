@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "lightmaps.h"
+#include "setup/lightmaps.h"
 
-#include "lighting.h"
+#include "setup/lighting.h"
 
 #include <alpenglow/geometry.h>
 
 #include <stdio.h>
+#include <string.h>
 
 /// Choices of --atlas, in its order.
 static const lightmap_layout layouts[] = {{ALP_ATLAS_AUTO, ALP_BLEND_NORMAL},
@@ -45,15 +46,12 @@ static bool holds_emitted_light(const alp_scene *scene)
 }
 
 /// The first given option that asks for a new map, or NULL.
-static const char *option_of_bake(const option_value *values)
+static const char *option_of_bake(const command_line *a)
 {
-    static const named_option of_bake[] = {
-        {OPTION_SIZE, "--size"},       {OPTION_ATLAS, "--atlas"},
-        {OPTION_STITCH, "--stitch"},   {OPTION_TEXEL_SAMPLES, "--texel-samples"},
-        {OPTION_QUALITY, "--quality"}, {OPTION_ERROR, "--error"},
-        {OPTION_GATHER, "--gather"},   {OPTION_BOUNCES, "--bounces"},
-        {OPTION_LAMP, "--lamp"},       {OPTION_SPOT, "--spot"}};
-    return option_find_given(values, of_bake, sizeof of_bake / sizeof *of_bake);
+    static const option_id of_bake[] = {
+        OPTION_QUALITY, OPTION_ERROR, OPTION_GATHER, OPTION_BOUNCES, OPTION_LAMP,
+        OPTION_SPOT,    OPTION_SIZE,  OPTION_ATLAS,  OPTION_STITCH,  OPTION_TEXEL_SAMPLES};
+    return option_find_given(a, of_bake, sizeof of_bake / sizeof *of_bake);
 }
 
 static void note(session *s, const command_line *a, const char *text)
@@ -62,23 +60,66 @@ static void note(session *s, const command_line *a, const char *text)
                  &(alp_log_message){ALP_LOG_NOTE, "baked-light", a->operands[0], text});
 }
 
+/// Says what is shown of a file whose surfaces emit baked light.
+static void note_emitted(session *s, const command_line *a)
+{
+    const char *asks = option_of_bake(a);
+    char text[256] =
+        "its surfaces are black and emit a baked light map: the picture shows that map";
+    if (asks != NULL) {
+        const size_t length = strlen(text);
+        snprintf(text + length, sizeof text - length,
+                 ", and %s changes nothing; for a new map, give it with the scene before that bake",
+                 asks);
+    }
+    note(s, a, text);
+}
+
+/// Says what is shown of a file that names baked light.
+static void note_named(session *s, const command_line *a)
+{
+    const char *asks = option_of_bake(a);
+    char text[160];
+    if (asks == NULL) {
+        note(s, a,
+             "the picture shows the light map that the file holds; --quality medium bakes a new "
+             "one");
+        return;
+    }
+    snprintf(text, sizeof text,
+             "it holds a baked light map, but %s asks for a new one; leave it out to see that of "
+             "the file",
+             asks);
+    note(s, a, text);
+}
+
+/// Whether a material of the scene has a map of occlusion.
+static bool holds_occlusion(const alp_scene *scene)
+{
+    const uint32_t count = alp_scene_get_info(scene).surfaces;
+    for (uint32_t i = 0; i < count; i++) {
+        const alp_material_info m =
+            alp_scene_get_material(scene, alp_scene_get_surface(scene, i).material_index);
+        if (m.occlusion_texture.image != ALP_NONE) {
+            return true;
+        }
+    }
+    return false;
+}
+
 alp_result lightmap_find(session *s, const command_line *a, bool *found)
 {
     const bool named = alp_scene_get_info(s->scene).light_maps > 0;
     const bool emitted = !named && holds_emitted_light(s->scene);
-    const char *asks = option_of_bake(a->values);
-    char text[160];
-    *found = emitted || (named && asks == NULL);
+    *found = emitted || (named && option_of_bake(a) == NULL);
     if (emitted) {
-        note(s, a, "its surfaces are black and emit a baked light map: the picture shows that map");
-    } else if (named && asks != NULL) {
-        snprintf(text, sizeof text,
-                 "it holds a baked light map, but %s asks for a new one; leave it out to see that "
-                 "of the file",
-                 asks);
-        note(s, a, text);
+        note_emitted(s, a);
     } else if (named) {
-        note(s, a, "the picture shows the light map that the file holds");
+        note_named(s, a);
+    } else if (holds_occlusion(s->scene)) {
+        note(s, a,
+             "it holds occlusion, and no light map: a new one is baked; --with ao shows the "
+             "occlusion");
     }
     return *found ? alp_scene_read_light_maps(s->scene) : ALP_OK;
 }
@@ -97,18 +138,9 @@ static void note_baked_light(session *s, const command_line *a)
 
 int lightmap_check(const command_line *a)
 {
-    const option_value *values = a->values;
     float error;
     const int code = error_read(a, &error);
-    if (code != EXIT_DONE || !(error > 0.0f)) {
-        return code;
-    }
-    const bool by_paths = values[OPTION_GATHER].choice != (int)ALP_GATHER_RAYS;
-    if (values[OPTION_TEXEL_SAMPLES].given || by_paths || lighting_bounces(a) == 0) {
-        return usage_error(a->command, "--%s: needs --gather rays, bounces, and no --texel-samples",
-                           values[OPTION_QUALITY].given ? "quality" : "error");
-    }
-    return EXIT_DONE;
+    return code == EXIT_DONE && error > 0.0f ? error_check_light(a, OPTION_TEXEL_SAMPLES) : code;
 }
 
 alp_result lightmap_bake(session *s, const command_line *a, const alp_render_options *o,
