@@ -6,6 +6,7 @@
 #include "base/decimal.h"
 #include "base/memory.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf8.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@ static alpi_material *last_material(const alpi_mtl_reader *r)
 
 void alpi_mtl_show(alpi_obj_word word, char text[128])
 {
-    snprintf(text, 128, "%.*s", (int)(word.size < 120 ? word.size : 120), word.text);
+    alpi_utf8_print(word.text, word.size, text, 128);
     for (char *c = text; *c != '\0'; c++) {
         *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
     }
@@ -198,7 +199,9 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     r->model = 2;
     r->mask = alpi_texture_none();
     if (!added) {
-        alpi_note(r->obj->context, "material", alpi_obj_name(&r->names, number),
+        char shown[128];
+        alpi_mtl_show(name, shown);
+        alpi_note(r->obj->context, "material", shown,
                   "%s: line %llu: there is a material of this name already, which is used", t->path,
                   (unsigned long long)t->line);
         return ALP_OK;
@@ -209,7 +212,7 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     s->materials = items;
     alpi_material *m = &s->materials[s->material_count];
     *m = alpi_material_default();
-    m->name = alpi_copy_string(r->obj->context, alpi_obj_name(&r->names, number));
+    m->name = alpi_utf8_copy(r->obj->context, name.text, name.size);
     if (m->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }

@@ -47,7 +47,7 @@ alp_result alpi_mtl_take_picture(alpi_obj_text *text, const char *folder, const 
 
 /// A word that may begin a number.
 bool alpi_mtl_is_number(alpi_obj_word word);
-/// A copy of a word for messages, without control characters.
+/// A copy of a word for messages: UTF-8 without control characters.
 void alpi_mtl_show(alpi_obj_word word, char text[128]);
 
 /// Reads a statement of a library.

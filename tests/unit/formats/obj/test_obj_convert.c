@@ -167,3 +167,37 @@ TEST_WITH_CONTEXT(losses, 1)
     alp_scene_destroy(gltf);
     alp_scene_destroy(obj);
 }
+
+/// Names in Latin-1 are UTF-8 in the scene and in glTF. An OBJ keeps its bytes, and a picture may
+/// have the name in either.
+TEST_WITH_CONTEXT(names_in_latin_1, 1)
+{
+    static const char *const pictures[] = {"gr\xfcn.png", "gr\xc3\xbcn.png"};
+    for (int i = 0; i < 2; i++) {
+        static const uint8_t green[3] = {0, 255, 0};
+        const char *folder = test_folder();
+        write_picture(context, test_path(folder, pictures[i]), green);
+        alp_scene *obj = read_with(context, folder,
+                                   "newmtl gr\xfcn\nKd 1 1 1\nmap_Kd gr\xfcn.png\n"
+                                   "newmtl gr\xfcn\n",
+                                   "mtllib a.mtl\no D\xe4"
+                                   "cher\nusemtl gr\xfcn\n" MESH FACE);
+        assert_string_equal(obj->materials[0].name, "gr\xc3\xbcn");
+        assert_string_equal(obj->surfaces[0].name, "D\xc3\xa4"
+                                                   "cher");
+        assert_false(test_log_has("image"));
+        assert_non_null(strstr(test_log_text(), "material gr\xc3\xbcn: "));
+        alp_scene *gltf = through(context, obj, folder, "b.glb");
+        assert_string_equal(gltf->materials[0].name, "gr\xc3\xbcn");
+        ASSERT_NEAR(texel(context, gltf, &gltf->materials[0].base_color_texture, 1), 1.0, 1e-6);
+        alp_scene *back = through(context, obj, folder, "c.obj");
+        ASSERT_NEAR(texel(context, back, &back->materials[0].base_color_texture, 1), 1.0, 1e-6);
+        size_t size;
+        uint8_t *text = test_read_file(test_path(folder, "c.obj"), &size);
+        assert_non_null(strstr((const char *)text, "usemtl gr\xfcn\n"));
+        free(text);
+        alp_scene_destroy(obj);
+        alp_scene_destroy(gltf);
+        alp_scene_destroy(back);
+    }
+}
