@@ -67,7 +67,7 @@ static alp_result add_copies(alpi_output_files *files, const alpi_gltf_document 
             (fallbacks && document->buffers[i].bytes != NULL)) {
             continue;
         }
-        alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
+        alp_result result = alpi_gltf_reference_path(document, kind, uri, &source);
         if (result == ALP_OK && source != NULL && !is_outside(files, document, source, uri)) {
             result = add_copy(files, document, source, folder);
         } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
