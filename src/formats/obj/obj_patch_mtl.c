@@ -143,6 +143,9 @@ static alp_result keep_picture(patcher *p, writing *x, alpi_obj_text *t)
     alpi_mtl_picture picture;
     char *path = NULL;
     alp_result result = alpi_mtl_take_picture(t, p->source->folder, p->library->folder, &picture);
+    if (result == ALP_ERROR_INVALID_DATA) {
+        return ALP_OK; // a bad number: the statement means nothing, and stays
+    }
     if (result == ALP_OK && picture.found != ALPI_FOUND_NOTHING) {
         result = written_path(p, picture.path, &path);
     }

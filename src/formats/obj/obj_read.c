@@ -21,7 +21,8 @@ typedef struct parser {
     uint32_t surface;  // of the next face, ALPI_NONE = to be found
     alpi_obj_names keys;
     float largest_color; // component
-    uint64_t lines_and_points, small_faces, unknown;
+    uint64_t lines_and_points, small_faces, unknown, bad_normals;
+    char first_fault[256]; // of the normals
     char unknown_word[24];
 } parser;
 
@@ -120,7 +121,13 @@ static alp_result read_normal(parser *p)
     o->normals = items;
     float *value = o->normals[o->normal_count++];
     for (int k = 0; k < 3; k++) {
-        ALP_TRY(alpi_obj_take_float(&p->text, "vn", &value[k]));
+        if (alpi_obj_take_float(&p->text, "vn", &value[k]) != ALP_OK) {
+            memset(value, 0, sizeof *o->normals); // faces name those behind it by their numbers
+            if (p->bad_normals++ == 0) {
+                alpi_obj_copy_fault(&p->text, p->first_fault, sizeof p->first_fault);
+            }
+            break;
+        }
     }
     return ALP_OK;
 }
@@ -356,6 +363,10 @@ static void tell(const parser *p)
     if (p->small_faces > 0) {
         alpi_warn(context, "bad-faces", path, "%llu faces of less than three corners left out",
                   (unsigned long long)p->small_faces);
+    }
+    if (p->bad_normals > 0) {
+        alpi_warn(context, "bad-normals", path, "%s; such normals are read as none: %llu",
+                  p->first_fault, (unsigned long long)p->bad_normals);
     }
     if (p->lines_and_points > 0) {
         alpi_note(context, "not-triangles", path, "%llu statements of lines and points left out",

@@ -28,6 +28,15 @@ alp_result alpi_obj_fail(const alpi_obj_text *text, const char *format, ...)
                      (unsigned long long)text->line, fault);
 }
 
+void alpi_obj_copy_fault(const alpi_obj_text *text, char *fault, size_t room)
+{
+    const char *message = alp_context_message(text->context);
+    const size_t size = strlen(text->path);
+    const bool named = strncmp(message, text->path, size) == 0 && message[size] == ':';
+    message += named ? size + 2 : 0;
+    alpi_utf8_print(message, strlen(message), fault, room);
+}
+
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0';
