@@ -549,7 +549,7 @@ static void tell_oddities(const plan *p)
         alpi_note(
             context, "hidden", path,
             "%u nodes with meshes are hidden (KHR_node_visibility): they neither cast shadows "
-            "nor get a map, and stay in the file",
+            "nor get a map; they stay in an output of glTF",
             p->hidden);
     }
     if (p->skinned > 0) {
