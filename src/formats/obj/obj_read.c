@@ -369,13 +369,15 @@ static void tell(const parser *p)
                   p->first_fault, (unsigned long long)p->bad_normals);
     }
     if (p->lines_and_points > 0) {
-        alpi_note(context, "not-triangles", path, "%llu statements of lines and points left out",
-                  (unsigned long long)p->lines_and_points);
+        alpi_note(
+            context, "not-triangles", path,
+            "%llu statements of lines and points have no part in the bake; an .obj keeps them",
+            (unsigned long long)p->lines_and_points);
     }
     if (p->unknown > 0) {
         alpi_note(context, "statements", path,
-                  "%llu statements left out, such as \"%s\": only v, vt, vn, f, o, g, usemtl and"
-                  " mtllib are read",
+                  "%llu statements have no part in the bake, such as \"%s\": only v, vt, vn, f, o, "
+                  "g, usemtl and mtllib are read; an .obj keeps them",
                   (unsigned long long)p->unknown, p->unknown_word);
     }
 }

@@ -340,7 +340,7 @@ alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *
     uint8_t *bytes = NULL;
     size_t size = 0;
     alpi_gltf_document *exported = NULL;
-    ALP_TRY(alpi_gltf_export_scene(scene, &bytes, &size));
+    ALP_TRY(alpi_gltf_export_scene(scene, patch->corner_uvs == NULL, &bytes, &size));
     ALP_TRY(alpi_gltf_document_parse(scene->context, scene->name, bytes, size, &exported));
     alp_result result = write_document(scene, exported, patch, path, files);
     alpi_gltf_document_destroy(exported);

@@ -166,7 +166,8 @@ TEST_WITH_CONTEXT(left_out, 1)
     assert_int_equal(scene->triangle_count, 1);
     assert_non_null(strstr(test_log_text(), "2 statements of lines and points"));
     assert_non_null(strstr(test_log_text(), "3 faces of less than three corners"));
-    assert_non_null(strstr(test_log_text(), "2 statements left out, such as \"curv\""));
+    assert_non_null(
+        strstr(test_log_text(), "2 statements have no part in the bake, such as \"curv\""));
     assert_true(test_log_has("unit"));
     alp_scene_destroy(scene);
     test_log_clear(); // only points
