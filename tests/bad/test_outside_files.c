@@ -67,8 +67,8 @@ static alp_context *make_context(bool outside)
     return context;
 }
 
-/// Whether the picture is read, from an asset that names it so. What is refused says how to allow
-/// it.
+/// Whether the picture is read, from an asset that names it so. A refusal names the
+/// option that allows it.
 static bool is_read(int kind, const char *name, bool outside, const char *hint)
 {
     test_small_bake bake = test_small_bake_open(kind);

@@ -74,7 +74,7 @@ static alp_result read_library(alpi_mtl_reader *r, const char *path, const char 
     return keep_library(r->obj, file);
 }
 
-/// Where a library is: as named, in another case or by its own name beside the asset.
+/// Finds a library: as named, in another case or by its own name beside the asset.
 static alp_result find_library(const alpi_mtl_reader *r, alpi_obj_word name, char **inner,
                                bool *found)
 {

@@ -110,7 +110,7 @@ static alp_result join_mask(alpi_mtl_reader *r, alpi_material *m)
     return result;
 }
 
-/// d says it, else Tr; exporters disagree on the sign of Tr, and nobody models the invisible.
+/// Alpha is d, else 1 − Tr; exporters disagree on the sign of Tr, and nobody models the invisible.
 static alp_result finish_alpha(alpi_mtl_reader *r, alpi_material *m)
 {
     if (!r->has_opacity && r->transparency >= 1.0f) {
@@ -147,7 +147,7 @@ static void finish_shine(const alpi_mtl_reader *r, alpi_shine *shine)
         shine->roughness = powf(2.0f / (r->exponent + 2.0f), 0.25f);
     }
     if (!r->has_roughness && shine->roughness_texture.image != ALPI_NONE) {
-        shine->roughness = 1.0f; // the map says it
+        shine->roughness = 1.0f; // the map holds it
     }
     shine->roughness = fminf(fmaxf(shine->roughness, 0.0f), 1.0f);
     for (int k = 0; k < 3; k++) {
@@ -162,7 +162,7 @@ alp_result alpi_mtl_finish_material(alpi_mtl_reader *r)
     }
     alpi_material *m = last_material(r);
     if (r->occlusion && m->base_color_texture.image == m->occlusion_texture.image) {
-        m->base_color_texture = alpi_texture_none(); // we put it there, for viewers to show
+        m->base_color_texture = alpi_texture_none(); // an earlier bake put it there for viewers
     } else if (!r->occlusion) {
         m->occlusion_texture = alpi_texture_none(); // map_Ka alone means something else
     }
@@ -222,7 +222,7 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     return ALP_OK;
 }
 
-/// Three numbers, or one that stands for all.
+/// Three numbers, or one for all.
 static alp_result take_color(alpi_obj_text *t, const char *what, float color[3])
 {
     float values[3];
@@ -310,7 +310,7 @@ static alp_result read_shine(alpi_mtl_reader *r, alpi_obj_text *t, alpi_obj_word
     } else if (alpi_obj_word_is(key, "norm") || alpi_obj_word_is(key, "map_Kn")) {
         return read_quiet_texture(r, t, &m->normal_texture, &m->normal_scale);
     } else if (alpi_obj_word_is(key, "map_Bump") || alpi_obj_word_is(key, "map_bump") ||
-               alpi_obj_word_is(key, "bump")) { // heights or normals: it does not say
+               alpi_obj_word_is(key, "bump")) { // heights or normals: the file does not state which
         return read_quiet_texture(r, t, &shine->bump_texture, &shine->bump_scale);
     }
     return ALP_OK;

@@ -34,10 +34,10 @@ typedef struct block {
     bool is_repeated;  // the second of its name
 } block;
 
-/// What one writing of a block has so far.
+/// The state of one writing of a block.
 typedef struct writing {
     alpi_obj_use use;
-    const char *name;   // NULL: as it stands
+    const char *name;   // NULL: its own
     const char *copied; // the library up to here is written
     const char *last;   // end of the last statement
     bool occluded, lit;
@@ -216,7 +216,7 @@ static alp_result write_statement(patcher *p, const block *b, writing *x, alpi_o
     return keep_picture(p, x, t);
 }
 
-/// What the bake adds.
+/// Adds the maps of the bake.
 static void write_maps(patcher *p, const writing *x)
 {
     alpi_obj_writer *w = p->w;

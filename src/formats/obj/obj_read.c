@@ -285,7 +285,7 @@ static alp_result read_face(parser *p)
 
 // --- statements ----------------------------------------------------------------------------------
 
-/// "a/b/chair.obj" → "chair": the name of faces that stand in no object and no group.
+/// "a/b/chair.obj" → "chair": the name of faces in no object and no group.
 static alpi_obj_word file_stem(const char *path)
 {
     const char *name = alpi_path_name(path), *dot = strrchr(name, '.');
@@ -356,7 +356,7 @@ static alp_result read_statement(parser *p)
     return read_other(p, keyword);
 }
 
-static void tell(const parser *p)
+static void report(const parser *p)
 {
     alp_context *context = p->obj->context;
     const char *path = p->obj->path;
@@ -429,7 +429,7 @@ alp_result alpi_obj_parse(alp_context *context, const char *path, const char *te
     }
     if (result == ALP_OK) {
         scale_colors(&p);
-        tell(&p);
+        report(&p);
     }
     return result;
 }

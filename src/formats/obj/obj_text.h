@@ -33,7 +33,7 @@ alpi_obj_word alpi_obj_take_word(alpi_obj_text *text);
 alpi_obj_word alpi_obj_take_rest(alpi_obj_text *text);
 bool alpi_obj_word_is(alpi_obj_word word, const char *name);
 
-/// Takes a finite number. What is beyond the range of floats comes as the largest. `what` names
+/// Takes a finite number that a float can hold. `what` names
 /// the statement, "v".
 /// @return ALP_OK; INVALID_DATA (none there, or no number)
 alp_result alpi_obj_take_float(alpi_obj_text *text, const char *what, float *value);

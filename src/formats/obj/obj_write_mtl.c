@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The material library beside a written OBJ, and the pictures that it names. Occlusion is map_Ka,
 // which scales ambient light; most viewers know map_Kd alone, so it is that too where no texture
-// takes its place. "alpenglow_occlusion" says so to our own reader; others pass what they do not
+// takes its place. "alpenglow_occlusion" marks it for our own reader; others pass what they do not
 // know.
 #include "formats/obj/obj_write.h"
 
