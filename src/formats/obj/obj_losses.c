@@ -21,13 +21,14 @@ typedef struct block {
     bool is_used;
     bool has_occlusion; // map_Ka is occlusion
     bool reflects;      // Ks is not black
+    bool is_physical;   // Pr or Pm: glTF reflects by them
     bool mirrors;       // illum 3 and above: 0 to 2 are diffuse and glossy
 } block;
 
 /// A model of mirrors changes nothing without a colour that they reflect.
 static void end_block(losses *l, block *b)
 {
-    l->mirrors += b->is_used && b->reflects && b->mirrors;
+    l->mirrors += b->is_used && b->reflects && b->mirrors && !b->is_physical;
     *b = (block){0};
 }
 
@@ -57,6 +58,8 @@ static void count_statement(const bool *used, const alpi_obj_names *materials, a
     } else if (alpi_obj_word_is(key, "illum")) {
         const alpi_obj_word model = alpi_obj_take_word(t);
         b->mirrors = model.size > 1 || (model.size == 1 && *model.text > '2');
+    } else if (alpi_obj_word_is(key, "Pr") || alpi_obj_word_is(key, "Pm")) {
+        b->is_physical = true;
     }
     for (size_t i = 0; b->is_used && i < KIND_COUNT; i++) {
         l->kinds[i] += alpi_obj_word_is(key, kinds[i]) && !(b->has_occlusion && i == 0);

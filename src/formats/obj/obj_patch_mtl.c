@@ -140,7 +140,7 @@ static alp_result comment_out(patcher *p, const block *b, writing *x, alpi_obj_t
     if (result == ALP_OK && picture.found != ALPI_FOUND_NOTHING && !*lost) {
         alpi_warn(p->w->context, "texture-lost", p->w->scene->materials[b->material].name,
                   "its textures need the vt that new charts replace, and are comments in the .mtl; "
-                  "write .glb, which holds both, or keep the vt (--atlas keep)");
+                  "write .glb, which holds both, or --atlas keep if the vt do not overlap");
         *lost = true;
     }
     return result == ALP_ERROR_INVALID_DATA ? ALP_OK : result;

@@ -150,9 +150,10 @@ TEST_WITH_CONTEXT(losses, 1)
                                "newmtl a\nmap_Bump -bm 0.25 n.png\nmap_Ns r.png\nTf 1 1 1\n"
                                "newmtl b\nbump h.png\nTf 1 1 1\nillum 7\nKs 1 1 1\nKa 1 1 1\n"
                                "newmtl dull\nillum 7\nKs 0 0 0\nnewmtl glossy\nillum 2\nKs 1 1 1\n"
+                               "newmtl metal\nillum 3\nKs 1 1 1\nPm 1\n"
                                "newmtl unused\nillum 7\nKs 1 1 1\ndisp h.png\n",
                                "mtllib a.mtl\nusemtl a\n" MESH FACE "usemtl b\n" FACE
-                               "usemtl dull\n" FACE "usemtl glossy\n" FACE);
+                               "usemtl dull\n" FACE "usemtl glossy\n" FACE "usemtl metal\n" FACE);
     alp_scene *gltf = through(context, obj, folder, "b.glb");
     const alpi_material *a = &gltf->materials[0], *b = &gltf->materials[1];
     ASSERT_NEAR(texel(context, gltf, &a->normal_texture, 2), 1.0, 1e-6);
