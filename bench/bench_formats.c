@@ -233,7 +233,8 @@ static bool write_hills(const char *name, char path[PATH_SIZE])
     }
     const int file = mkstemps(path, 4);
     FILE *stream = file >= 0 ? fdopen(file, "wb") : NULL;
-    bool good = stream != NULL && alpi_gltf_export_scene(hills.scene, &bytes, &size) == ALP_OK;
+    bool good =
+        stream != NULL && alpi_gltf_export_scene(hills.scene, true, &bytes, &size) == ALP_OK;
     good = good && fwrite(bytes, 1, size, stream) == size;
     good = stream != NULL && fclose(stream) == 0 && good;
     if (!good) {

@@ -41,7 +41,7 @@ SUB_ROOMS = {
     "formats": {
         "text": [],
         "polygon": [],
-        "files": [],
+        "files": ["text"],
         "images": [],
         "gltf": ["images", "files", "text"],
         "gltf/write": ["gltf", "images", "files", "text"],

@@ -64,12 +64,13 @@ static void add_fault(fault_list *list, uint32_t triangle, uint32_t other)
 static alp_result tell(const fault_list *list, const char *fault, char **reason)
 {
     const alp_scene *scene = list->scene;
-    *reason = alpi_format(scene->context,
-                          "%s: %s: the second UV set (TEXCOORD_1) cannot hold a bake: %s: %u "
-                          "triangle%s, such as %s%s; use --atlas charts",
-                          scene->name, scene->surfaces[list->surface].name, fault, list->total,
-                          list->total == 1 ? "" : "s", list->text,
-                          list->count > NAMED_LIMIT ? ", …" : "");
+    *reason =
+        alpi_format(scene->context,
+                    "%s: %s: %s cannot hold a bake: %s: %u triangle%s, such as %s%s; "
+                    "use --atlas charts",
+                    scene->name, scene->surfaces[list->surface].name, alpi_scene_second_set(scene),
+                    fault, list->total, list->total == 1 ? "" : "s", list->text,
+                    list->count > NAMED_LIMIT ? ", …" : "");
     return *reason == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_ERROR_INVALID_DATA;
 }
 
@@ -209,10 +210,11 @@ static void warn_of_few(const alp_atlas *atlas, const fault_list *list)
 {
     const alp_scene *scene = atlas->scene;
     alpi_warn(scene->context, "kept-overlap", scene->surfaces[list->surface].name,
-              "%u triangle%s with others in the second UV set (TEXCOORD_1), on %.2g %% of its "
-              "texels, such as %s%s: they have each other's values there; use --atlas charts for "
+              "%u triangle%s with others in %s, on %.2g %% of its texels, such as %s%s: they have "
+              "each other's values there; use --atlas charts for "
               "maps without overlaps",
-              list->total, list->total == 1 ? " overlaps" : "s overlap", shared_percent(atlas),
+              list->total, list->total == 1 ? " overlaps" : "s overlap",
+              alpi_scene_second_set(scene), shared_percent(atlas),
               list->text, list->count > NAMED_LIMIT ? ", …" : "");
 }
 

@@ -86,10 +86,12 @@ static alp_result place_surface(alp_atlas *layout, uint32_t index, const alpi_te
 {
     const alp_scene *scene = layout->scene;
     const alpi_surface *surface = &scene->surfaces[index];
+    const bool is_obj = scene->attachments[ALPI_ATTACHMENT_OBJ].data != NULL;
     if (texture->uv_set >= surface->uv_sets || texture->uv_set >= ALPI_UV_SET_LIMIT ||
         scene->uvs[texture->uv_set] == NULL) {
-        return refuse(reason, alpi_format(scene->context, "%s has no TEXCOORD_%u", surface->name,
-                                          texture->uv_set));
+        return refuse(reason, is_obj ? alpi_format(scene->context, "%s has no vt", surface->name)
+                                     : alpi_format(scene->context, "%s has no TEXCOORD_%u",
+                                                   surface->name, texture->uv_set));
     }
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         uint32_t t = surface->first_triangle + i;

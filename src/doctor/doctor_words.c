@@ -158,6 +158,8 @@ static const alpi_finding_words words[] = {
      "add the material to the .mtl, or correct its name"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "map-d", "full shadows of surfaces with holes",
      "give map_d the same -s, -o and -clamp as map_Kd"},
+    {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "mtl-numbers",
+     "the material without those statements", "correct the numbers in the .mtl"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "missing-data",
      "flat shading, or textures that are missing", "export the mesh anew, with all that it names"},
     {ALP_FINDING_MESSAGE, ALP_SEVERITY_WARNING, "effect", "grey surfaces",

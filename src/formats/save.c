@@ -12,7 +12,7 @@ alp_result alpi_scene_add_patched(const alp_scene *scene, const alpi_mesh_patch 
     if (alpi_path_has_ending(path, ".obj")) {
         return alpi_obj_add_patched(scene, patch, path, files);
     }
-    alpi_obj_note_losses(scene);
+    ALP_TRY(alpi_obj_note_losses(scene));
     return alpi_gltf_add_patched(scene, patch, path, files);
 }
 

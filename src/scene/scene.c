@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 #include "base/plural.h"
-#include "scene/area_points.h"
 #include "scene/blend_weights.h"
 #include "scene/sides.h"
 #include "scene/viewpoints.h"
@@ -274,34 +273,38 @@ static void clamp_materials(alp_scene *scene)
     }
 }
 
-/// A metal has no diffuse colour for a viewer to multiply light by, and glTF's default material is
-/// one. A black metal may emit all its light, which is no mistake. Points spread over the area
-/// sample factors and textures.
-static void warn_of_metal(const alp_scene *scene)
+const char *alpi_scene_second_set(const alp_scene *scene)
 {
-    enum { POINTS = 1024 };
+    return scene->attachments[ALPI_ATTACHMENT_OBJ].data != NULL
+               ? "the set of texture coordinates (vt)"
+               : "the second UV set (TEXCOORD_1)";
+}
+
+static bool is_assumed_metal(const alpi_material *m)
+{
     static const float METAL = 0.9f;
-    alpi_area_point points[POINTS];
-    uint32_t metal = 0;
-    bool any = false;
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        const float *color = scene->materials[i].base_color; // black is black of any material
-        any = any || (scene->materials[i].metallic >= METAL &&
-                      (color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f));
+    const float *color = m->base_color; // black is black of any material
+    return m->metallic_assumed && m->metallic >= METAL &&
+           (color[0] > 0.0f || color[1] > 0.0f || color[2] > 0.0f);
+}
+
+void alpi_scene_warn_of_metal(const alp_scene *scene)
+{
+    double metal = 0.0, area = 0.0;
+    for (uint32_t t = 0; t < scene->triangle_count; t++) {
+        const uint32_t m = scene->surfaces[scene->triangle_surface[t]].material;
+        vec3 c[3];
+        alpi_triangle_corners(scene, t, c);
+        const double own = scene->triangle_usable[t] ? vec3_triangle_area(c[0], c[1], c[2]) : 0.0;
+        area += own;
+        metal += m != ALPI_NONE && is_assumed_metal(&scene->materials[m]) ? own : 0.0;
     }
-    if (!any || !alpi_area_points(scene, POINTS, points)) {
-        return;
-    }
-    for (uint32_t i = 0; i < POINTS; i++) {
-        const alpi_area_point *p = &points[i];
-        metal += alpi_surface_metallic(scene, p->triangle, p->b1, p->b2) >= METAL;
-    }
-    if (metal > POINTS / 2) {
+    if (metal > 0.5 * area) {
         alpi_warn(
             scene->context, "metal", scene->name,
             "%.0f %% of the surface is metal, the default of glTF: viewers that multiply a light "
             "map by the diffuse colour show it black; set metallicFactor to 0 on other materials",
-            100.0 * metal / POINTS);
+            100.0 * metal / area);
     }
 }
 
@@ -339,7 +342,6 @@ alp_result alpi_scene_finish(alp_scene *scene)
 {
     ALP_TRY(alpi_scene_finish_quietly(scene));
     note_flat(scene);
-    warn_of_metal(scene);
     warn_of_precision(scene);
     return ALP_OK;
 }

@@ -50,6 +50,7 @@ typedef struct alpi_material {
     float base_color[4];             // linear, [0, 1]
     alpi_texture base_color_texture; // sRGB + alpha
     float metallic;                  // [0, 1]
+    bool metallic_assumed;           // the file gives no metalness: it is a default
     alpi_texture metallic_texture;   // channel B, linear
     float emission[3]; // radiance W·sr⁻¹·m⁻²: emissiveFactor × emissiveStrength
     alpi_texture emission_texture; // sRGB
@@ -197,6 +198,13 @@ alp_result alpi_scene_finish(alp_scene *scene);
 
 /// The same without warnings that a scene with the same materials and places gave before.
 alp_result alpi_scene_finish_quietly(alp_scene *scene);
+/// The second set of coordinates in the words of the scene's file, for messages.
+const char *alpi_scene_second_set(const alp_scene *scene);
+
+/// Warns of a scene that is mostly metal by glTF's default: a metal has no diffuse colour for a
+/// viewer to multiply a light map by. A metal that the file states is meant, and a black one may
+/// emit all its light.
+void alpi_scene_warn_of_metal(const alp_scene *scene);
 
 /// An image of a scene, decoded now where it was not: one more owner of it, who destroys it. NULL
 /// for one that cannot be read, with a warning, and where the scene's file is not known.

@@ -582,6 +582,7 @@ alp_result alp_scene_examine(const alp_scene *scene, const alp_lighting_options 
     ALP_TRY(alpi_lighting_create(scene, options, &lighting));
     alp_result result = alpi_tracer_for_scene(scene, progress, progress_user, &tracer, NULL);
     if (result == ALP_OK) {
+        alpi_scene_warn_of_metal(scene);
         result = alpi_examine_light(tracer, (alpi_trace_filter){.one_sided = false}, scene,
                                     lighting, progress, progress_user);
     }

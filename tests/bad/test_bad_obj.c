@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/// What EXPECT.tsv beside the crafted files says, and what we say of each.
+/// The rows of EXPECT.tsv beside the crafted files, with our result for each.
 static const struct {
     const char *file, *words; // of the error; NULL: it is read
     uint32_t triangles;

@@ -67,8 +67,8 @@ static alp_context *make_context(bool outside)
     return context;
 }
 
-/// Whether the picture is read, from an asset that names it so. What is refused says how to allow
-/// it.
+/// Whether the picture is read, from an asset that names it so. A refusal names the
+/// option that allows it.
 static bool is_read(int kind, const char *name, bool outside, const char *hint)
 {
     test_small_bake bake = test_small_bake_open(kind);
@@ -121,10 +121,9 @@ TEST(names_outside)
     snprintf(text[5], 1024, "%%2e./%s/wood.png", name);
     snprintf(text[6], 1024, "..\\%s\\wood.png", name);
     snprintf(text[7], 1024, "https://localhost/wood.png");
-    // Each format has its own addresses: an OBJ knows no escapes and no schemes, and a folder that
-    // is not there cannot be left where the system walks the path.
-    static const bool allowed[3][8] = {{true, false, true, true, true, true, true, false},
-                                       {true, false, true, true, true, true, true, false},
+    // Each format has its own addresses: an OBJ knows no schemes, and decodes no escapes of "..".
+    static const bool allowed[3][8] = {{true, true, true, true, true, true, true, false},
+                                       {true, true, true, true, true, true, true, false},
                                        {true, true, true, false, false, false, true, false}};
     for (int kind = 0; kind < 3; kind++) {
         for (int i = 0; i < 8; i++) {
@@ -139,6 +138,67 @@ TEST(names_outside)
                 fail_msg("kind %d, %s: allowed, but %d", kind, text[i], !allowed[kind][i]);
             }
         }
+    }
+}
+
+/// The scene of an asset that names its picture so, "wood.png" beside it.
+static alp_scene *load_named(const test_small_bake *bake, alp_context *context, const char *name)
+{
+    alp_scene *scene = NULL;
+    name_picture(bake, name);
+    ASSERT_OK(context, alp_scene_load(context, bake->scene, &scene));
+    return scene;
+}
+
+/// Paths of other machines and other cases lead to the file of that name beside the asset.
+TEST(names_of_people)
+{
+    static const char *const names[] = {"C:/x/wood.png",      "file:///C:/x/wood.png",
+                                        "/Users/x/wood.png",  "../textures/wood.png",
+                                        "WOOD.png",           "file:///home/x/Wood.PNG",
+                                        "textures/wood.png",  "https://localhost/wood.png",
+                                        "C:\\\\x\\\\wood.png"}; // escaped as in JSON
+    for (int kind = 0; kind < 3; kind++) {
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+            test_small_bake bake = test_small_bake_open(kind);
+            alp_context *context = make_context(false);
+            alp_scene *scene = load_named(&bake, context, names[i]);
+            if (scene->images[0] == NULL) {
+                fail_msg("%s: %s: %s", bake.kind, names[i], last_log);
+            }
+            const char *note = strstr(last_log, "image-path: ");
+            assert_non_null(note);
+            assert_null(strstr(note + 1, "image-path: "));
+            assert_null(strstr(last_log, "--allow-outside"));
+            alp_scene_destroy(scene);
+            alp_context_destroy(context);
+            test_small_bake_close(&bake);
+        }
+    }
+}
+
+/// A picture that was found goes with the baked asset, which finds it too.
+TEST(found_pictures_are_copied)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        test_small_bake bake = test_small_bake_open(kind);
+        unlink(test_path(bake.folder, "wood.png"));
+        alp_context *context = make_context(false);
+        alp_scene *scene = load_named(&bake, context, "C:/x/Wood.png"), *baked = NULL;
+        alp_bake_options options = alp_bake_options_default();
+        options.atlas.size = 8;
+        options.atlas.padding = 1;
+        options.occlusion.samples = 4;
+        options.output = bake.output;
+        options.overwrite = true;
+        ASSERT_OK(context, alp_bake(scene, &options, NULL, NULL));
+        assert_int_equal(access(test_path(bake.folder, "wood.png"), F_OK), 0);
+        ASSERT_OK(context, alp_scene_load(context, bake.output, &baked));
+        assert_non_null(baked->images[0]);
+        alp_scene_destroy(scene);
+        alp_scene_destroy(baked);
+        alp_context_destroy(context);
+        test_small_bake_close(&bake);
     }
 }
 

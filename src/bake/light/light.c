@@ -135,6 +135,15 @@ static alp_result run(alpi_light_bake *light)
     return alpi_light_store(light);
 }
 
+/// Light as emission is multiplied by nothing.
+static void warn_of_metal(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->output == NULL || o->maps_folder != NULL || o->lightmap_as != ALP_LIGHTMAP_AS_EMISSIVE) {
+        alpi_scene_warn_of_metal(job->scene);
+    }
+}
+
 /// Computes the light of lamps and sky, until the clock ends it.
 static alp_result run_by_clock(alpi_bake_job *job, const alpi_lighting *lighting,
                                alpi_light_clock *clock)
@@ -154,6 +163,7 @@ static alp_result run_by_clock(alpi_bake_job *job, const alpi_lighting *lighting
         .order = object->valid,
         .count = object->valid_count,
         .directional = job->directional};
+    warn_of_metal(job);
     ALP_TRY(alpi_examine_light(g->tracer, filter, job->scene, lighting, alpi_light_clock_goes_on,
                                clock));
     if (alpi_lighting_emitter_count(lighting) > 0) {

@@ -73,7 +73,8 @@ alp_result alpi_collada_document_parse(alp_context *context, const char *path, u
                                        size_t size, alpi_collada_document **document);
 void alpi_collada_document_destroy(alpi_collada_document *document); // NULL does nothing
 
-/// Bytes of a file that the document names: beside it, or in its archive. Released by the caller.
+/// Bytes of a file that the document names: beside it, found as formats/files/find_file.h does, or
+/// in its archive. Released by the caller.
 alp_result alpi_collada_file_read(const alpi_collada_document *document, const char *uri,
                                   uint8_t **bytes, size_t *size);
 
@@ -81,6 +82,8 @@ alp_result alpi_collada_file_read(const alpi_collada_document *document, const c
 /// where it lies elsewhere. Released by the caller.
 alp_result alpi_collada_file_name(const alpi_collada_document *document, const char *uri,
                                   char **name);
+/// Notes a file that was not found as named.
+alp_result alpi_collada_note_file(const alpi_collada_document *document, const char *uri);
 
 /// Makes room for one more item of an array. @param items points to a typed pointer
 alp_result alpi_collada_grow(alp_context *context, void *items, size_t *capacity, size_t count,

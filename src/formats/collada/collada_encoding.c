@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "formats/text/utf16.h"
+#include "formats/text/utf8.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -96,31 +97,13 @@ static bool encoding_is_utf8(alpi_xml_word name)
 
 // --- Latin-1 in UTF-8 ----------------------------------------------------------------------------
 
-/// Bytes of the character of UTF-8 at `at`; 0 where there is none.
-static size_t utf8_length(const uint8_t *at, const uint8_t *end)
-{
-    const uint8_t lead = at[0];
-    const size_t length = lead < 0x80 ? 1 : lead < 0xc2 ? 0 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-    if (length == 1 || length == 0 || lead > 0xf4 || (size_t)(end - at) < length) {
-        return length == 1;
-    }
-    for (size_t k = 1; k < length; k++) {
-        if ((at[k] & 0xc0) != 0x80) {
-            return 0;
-        }
-    }
-    const bool shorter = (lead == 0xe0 && at[1] < 0xa0) || (lead == 0xf0 && at[1] < 0x90);
-    const bool beyond = (lead == 0xed && at[1] > 0x9f) || (lead == 0xf4 && at[1] > 0x8f);
-    return shorter || beyond ? 0 : length;
-}
-
 /// Counts the bytes that are no UTF-8. @return the first of them, NULL without any
 static const uint8_t *find_strays(const uint8_t *at, const uint8_t *end, size_t *count)
 {
     const uint8_t *first = NULL;
     *count = 0;
     while (at < end) {
-        const size_t length = utf8_length(at, end);
+        const size_t length = alpi_utf8_length(at, end);
         if (length == 0) {
             first = first == NULL ? at : first;
             ++*count;
@@ -162,7 +145,7 @@ static alp_result mend_strays(alpi_collada_document *d)
     }
     size_t size = 0;
     while (at < end) {
-        const size_t length = utf8_length(at, end);
+        const size_t length = alpi_utf8_length(at, end);
         if (length == 0) {
             mended[size++] = (uint8_t)(0xc0 | *at >> 6);
             mended[size++] = (uint8_t)(0x80 | (*at & 0x3f));

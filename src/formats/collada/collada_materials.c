@@ -300,7 +300,10 @@ static alp_result decode_image(const alpi_collada_document *document, const xmlN
     }
     uint8_t *bytes = NULL;
     size_t size = 0;
-    alp_result result = alpi_collada_file_read(document, uri, &bytes, &size);
+    alp_result result = alpi_collada_note_file(document, uri);
+    if (result == ALP_OK) {
+        result = alpi_collada_file_read(document, uri, &bytes, &size);
+    }
     if (result == ALP_OK) {
         char *name = alpi_format(context, "%s: %s", document->path, uri);
         result = name == NULL ? ALP_ERROR_OUT_OF_MEMORY

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/collada/collada_ids.h"
+#include "formats/files/find_file.h"
 #include "formats/files/outside.h"
 
 #include <stdarg.h>
@@ -240,59 +241,95 @@ static bool decode_path(char *text)
     return alpi_uri_decode(text);
 }
 
-/// Names of drives and schemes stay out; inside an archive there is nothing outside.
-static alp_result find_file(const alpi_collada_document *d, const char *name, char **path)
+/// The entry of the archive that a name stands for; NULL in *path where it names none.
+static alp_result find_entry(const alpi_collada_document *d, const char *name, char **path)
 {
-    const size_t scheme = strcspn(name, ":/");
     *path = NULL;
-    if (d->archive != NULL) {
-        if (alpi_path_stays_below(name) && name[scheme] != ':') {
-            *path = alpi_format(d->context, "%s%s", d->archive_folder, name);
-            return *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-        }
+    if (!alpi_path_stays_below(name) || name[strcspn(name, ":/")] == ':') {
         return ALP_OK;
     }
-    return name[scheme] != ':' || alpi_outside_takes(d->context, name)
-               ? alpi_outside_path(d->context, d->folder, name, path)
-               : ALP_OK;
+    *path = alpi_format(d->context, "%s%s", d->archive_folder, name);
+    return *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+/// The file that a uri stands for; NULL in *path where that is outside.
+static alp_result find_file(const alpi_collada_document *d, const char *uri, char **path,
+                            alpi_found *found)
+{
+    *path = NULL;
+    *found = ALPI_FOUND_NOTHING;
+    char *name = alpi_copy_string(d->context, uri);
+    if (name == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    alp_result result = ALP_OK;
+    if (decode_path(name)) {
+        result = d->archive != NULL ? find_entry(d, name, path)
+                                    : alpi_find_uri(d->context, d->folder, name, path, found);
+    }
+    alpi_release(d->context, name);
+    return result;
+}
+
+/// The part of a path below the document's folder, or the archive's; NULL where it lies elsewhere.
+static const char *path_below(const alpi_collada_document *d, const char *path)
+{
+    const char *folder = d->archive != NULL ? d->archive_folder : d->folder;
+    const size_t length = strlen(folder);
+    const bool below =
+        path != NULL && strncmp(path, folder, length) == 0 && alpi_path_stays_below(path + length);
+    return below ? path + length : NULL;
 }
 
 alp_result alpi_collada_file_name(const alpi_collada_document *d, const char *uri, char **name)
 {
-    *name = alpi_copy_string(d->context, uri);
-    if (*name == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
+    char *path = NULL;
+    alpi_found found;
+    *name = NULL;
+    ALP_TRY(find_file(d, uri, &path, &found));
+    const char *below = path_below(d, path);
+    if (below != NULL) {
+        *name = alpi_copy_string(d->context, below);
     }
-    const bool decoded = decode_path(*name);
-    if (!decoded || !alpi_path_stays_below(*name) || (*name)[strcspn(*name, ":/")] == ':') {
-        alpi_release(d->context, *name);
-        *name = NULL;
+    alpi_release(d->context, path);
+    return below != NULL && *name == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+alp_result alpi_collada_note_file(const alpi_collada_document *d, const char *uri)
+{
+    char *path = NULL, shown[256];
+    alpi_found found;
+    ALP_TRY(find_file(d, uri, &path, &found));
+    const char *below = path_below(d, path);
+    if (path != NULL) {
+        snprintf(shown, sizeof shown, "%s", uri);
+        clean(shown);
+        alpi_note_found(d->context, shown, below != NULL ? below : path, found);
     }
+    alpi_release(d->context, path);
     return ALP_OK;
 }
 
 alp_result alpi_collada_file_read(const alpi_collada_document *d, const char *uri, uint8_t **bytes,
                                   size_t *size)
 {
-    *bytes = NULL;
-    char *name = alpi_copy_string(d->context, uri);
-    if (name == NULL) {
-        return ALP_ERROR_OUT_OF_MEMORY;
-    }
     char *path = NULL;
-    alp_result result = decode_path(name) ? find_file(d, name, &path) : ALP_OK;
-    alpi_release(d->context, name);
-    if (result == ALP_OK && path == NULL) {
-        return alpi_fail(d->context, ALP_ERROR_UNSUPPORTED,
-                         "%s: \"%.200s\" lies outside the document's folder; " ALPI_OUTSIDE_HINT
-                         ": put it there and name it so",
-                         d->path, uri);
+    alpi_found found;
+    *bytes = NULL;
+    ALP_TRY(find_file(d, uri, &path, &found));
+    if (path == NULL) {
+        return alpi_fail(
+            d->context, ALP_ERROR_UNSUPPORTED,
+            alpi_path_is_foreign(uri)
+                ? "%s: \"%.200s\" is a path of another machine: put the file beside "
+                  "the document"
+                : "%s: \"%.200s\" lies outside the document's folder; " ALPI_OUTSIDE_HINT
+                  ": put it there and name it so",
+            d->path, uri);
     }
-    if (result == ALP_OK) {
-        result = d->archive != NULL
-                     ? alpi_archive_read(d->archive, path, bytes, size)
-                     : alpi_file_read(d->context, path, ALPI_COLLADA_TEXT_LIMIT, bytes, size);
-    }
+    const alp_result result =
+        d->archive != NULL ? alpi_archive_read(d->archive, path, bytes, size)
+                           : alpi_file_read(d->context, path, ALPI_COLLADA_TEXT_LIMIT, bytes, size);
     alpi_release(d->context, path);
     return result;
 }

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf8.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -247,26 +248,98 @@ static alp_result find(alp_context *context, const char *folder, const char *fro
     return result;
 }
 
+/// Another spelling of a name that was not found as it is; takes over `other`, which may be NULL.
+static alp_result find_other(alp_context *context, const char *folder, const char *from,
+                             const char *name, char *other, char **path, alpi_found *found)
+{
+    char *there = NULL;
+    const bool differs = other != NULL && strcmp(other, name) != 0;
+    alp_result result = ALP_OK;
+    if (differs && *found == ALPI_FOUND_NOTHING) {
+        result = find(context, folder, from, other, &there, found);
+    }
+    if (result == ALP_OK && *found != ALPI_FOUND_NOTHING && there != NULL) {
+        alpi_release(context, *path);
+        *path = there;
+    } else {
+        alpi_release(context, there);
+    }
+    alpi_release(context, other);
+    return result;
+}
+
+static alp_result find_spellings(alp_context *context, const char *folder, const char *from,
+                                 const char *name, char **path, alpi_found *found)
+{
+    ALP_TRY(find(context, folder, from, name, path, found));
+    if (*found != ALPI_FOUND_NOTHING) {
+        return ALP_OK;
+    }
+    char *decoded = alpi_copy_string(context, name);
+    if (decoded == NULL) {
+        return ALP_ERROR_OUT_OF_MEMORY;
+    }
+    if (!alpi_uri_decode(decoded) || strstr(decoded, "..") != NULL) {
+        alpi_release(context, decoded);
+        decoded = NULL;
+    }
+    ALP_TRY(find_other(context, folder, from, name, decoded, path, found));
+    char *utf8 = alpi_utf8_copy(context, name, strlen(name));
+    return utf8 == NULL ? ALP_ERROR_OUT_OF_MEMORY
+                        : find_other(context, folder, from, name, utf8, path, found);
+}
+
 alp_result alpi_find_file(alp_context *context, const char *folder, const char *from,
                           const char *name, char **path, alpi_found *found)
 {
-    ALP_TRY(find(context, folder, from, name, path, found));
-    if (*found != ALPI_FOUND_NOTHING || strchr(name, '%') == NULL) {
+    const alp_result result = find_spellings(context, folder, from, name, path, found);
+    if (result != ALP_OK) {
+        alpi_release(context, *path);
+        *path = NULL;
+    }
+    return result;
+}
+
+static bool has_scheme(const char *uri)
+{
+    const size_t length = strcspn(uri, ":/\\?#");
+    return length > 0 && uri[length] == ':';
+}
+
+static alp_result find_uri(alp_context *context, const char *folder, const char *uri, char **path,
+                           alpi_found *found)
+{
+    char *inner = NULL;
+    bool there = false;
+    ALP_TRY(alpi_outside_path(context, folder, uri, path));
+    if (*path != NULL) {
+        ALP_TRY(is_there(context, "", *path, &there));
+    }
+    if (there) {
+        *found = ALPI_FOUND_AS_NAMED;
         return ALP_OK;
     }
-    char *decoded = alpi_copy_string(context, name), *other = NULL;
-    alp_result result = decoded == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
-    if (result == ALP_OK && alpi_uri_decode(decoded) && strcmp(decoded, name) != 0 &&
-        strstr(decoded, "..") == NULL) {
-        result = find(context, folder, from, decoded, &other, found);
-    }
-    if (*found != ALPI_FOUND_NOTHING || result != ALP_OK) {
+    ALP_TRY(alpi_find_file(context, folder, "", uri, &inner, found));
+    if (*found != ALPI_FOUND_NOTHING) {
         alpi_release(context, *path);
-        *path = other;
-    } else {
-        alpi_release(context, other);
+        *path = alpi_format(context, "%s%s", inner[0] == '/' ? "" : folder, inner);
     }
-    alpi_release(context, decoded);
+    alpi_release(context, inner);
+    return *found != ALPI_FOUND_NOTHING && *path == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
+}
+
+alp_result alpi_find_uri(alp_context *context, const char *folder, const char *uri, char **path,
+                         alpi_found *found)
+{
+    *path = NULL;
+    *found = ALPI_FOUND_NOTHING;
+    const alp_result result = find_uri(context, folder, uri, path, found);
+    const bool elsewhere =
+        *found == ALPI_FOUND_NOTHING && has_scheme(uri) && !alpi_outside_takes(context, uri);
+    if (result != ALP_OK || elsewhere) {
+        alpi_release(context, *path);
+        *path = NULL;
+    }
     return result;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Files that an asset names, found as people's files name them: with backslashes, by the path of
-// another machine, in another case.
+// another machine, in another case, in Latin-1.
 #ifndef ALPI_FORMATS_FIND_FILE_H
 #define ALPI_FORMATS_FIND_FILE_H
 
@@ -21,13 +21,19 @@ typedef enum alpi_found {
 alp_result alpi_path_resolve(alp_context *context, const char *from, const char *name, size_t size,
                              char **path);
 
-/// The same, and looks for the file: as named, in another case, by percent escapes, then by the
-/// last parts of its path in the asset's folder. The longest end of the path that is there is
-/// taken.
+/// The same, and finds the file: as named, in another case, then by the last parts of its path in
+/// the asset's folder. The longest end of the path that is there is taken. A name that is nowhere
+/// is read with percent escapes, then as Latin-1.
 /// @param folder of the asset, with its slash, or ""
 /// @param path out; released by the caller. With ALPI_FOUND_NOTHING as alpi_path_resolve has it
 alp_result alpi_find_file(alp_context *context, const char *folder, const char *from,
                           const char *name, char **path, alpi_found *found);
+
+/// The same for a uri whose escapes are decoded. It may begin with "file:".
+/// @param path out, from the working folder; without a file the path that the uri names, or NULL
+///        where that is outside
+alp_result alpi_find_uri(alp_context *context, const char *folder, const char *uri, char **path,
+                         alpi_found *found);
 
 /// Whether a path is of a machine that this one is not: "C:\…", "\\host\…".
 bool alpi_path_is_foreign(const char *name);

@@ -33,7 +33,7 @@ void alpi_output_files_destroy(alpi_output_files *files);
 /// Writes all files, as members of a set.
 alp_result alpi_output_files_add_to(const alpi_output_files *files, alpi_file_set *set);
 
-/// Images that a bake brings to a file.
+/// Images that a bake adds to a file.
 typedef struct alpi_output_images {
     uint32_t occlusion, packed, light;
     const char *light_ending; // ".png"; NULL without light

@@ -92,12 +92,23 @@ static void turn_backslashes(char *uri)
     }
 }
 
+static bool is_data(const char *uri)
+{
+    return strncasecmp(uri, "data:", 5) == 0;
+}
+
 alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *uri,
                               const char *owner, char **path)
 {
     *path = NULL;
-    if (strncasecmp(uri, "data:", 5) == 0) {
+    if (is_data(uri)) {
         return ALP_OK;
+    }
+    if (alpi_path_is_foreign(uri)) {
+        return alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
+                         "%s: %s: its uri \"%.200s\" is a path of another machine; put the file "
+                         "beside the asset",
+                         document->path, owner, uri);
     }
     if (has_scheme(uri) && !alpi_outside_takes(document->context, uri)) {
         return alpi_fail(document->context, ALP_ERROR_UNSUPPORTED,
@@ -123,6 +134,20 @@ alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *ur
     return result;
 }
 
+/// The bytes of a file; takes over the path.
+static alp_result read_path(const alpi_gltf_document *document, char *path, const char *owner,
+                            uint8_t **bytes, size_t *size)
+{
+    alp_result result = alpi_file_read(document->context, path, ALPI_GLTF_FILE_LIMIT, bytes, size);
+    if (result == ALP_ERROR_IO || result == ALP_ERROR_LIMIT) { // say which asset wanted it
+        char reason[512];
+        snprintf(reason, sizeof reason, "%s", alp_context_message(document->context));
+        result = alpi_fail(document->context, result, "%s: %s: %s", document->path, owner, reason);
+    }
+    alpi_release(document->context, path);
+    return result;
+}
+
 alp_result alpi_gltf_uri_read(const alpi_gltf_document *document, const char *uri,
                               const char *owner, uint8_t **bytes, size_t *size)
 {
@@ -133,14 +158,62 @@ alp_result alpi_gltf_uri_read(const alpi_gltf_document *document, const char *ur
     if (path == NULL) {
         return read_data_uri(document, uri, owner, bytes, size);
     }
-    alp_result result = alpi_file_read(document->context, path, ALPI_GLTF_FILE_LIMIT, bytes, size);
-    if (result == ALP_ERROR_IO || result == ALP_ERROR_LIMIT) { // say which asset wanted it
-        char reason[512];
-        snprintf(reason, sizeof reason, "%s", alp_context_message(document->context));
-        result = alpi_fail(document->context, result, "%s: %s: %s", document->path, owner, reason);
+    return read_path(document, path, owner, bytes, size);
+}
+
+alp_result alpi_gltf_image_path(const alpi_gltf_document *document, const char *uri,
+                                const char *owner, char **path, alpi_found *found)
+{
+    *path = NULL;
+    *found = ALPI_FOUND_NOTHING;
+    char *name = is_data(uri) ? NULL : alpi_copy_string(document->context, uri);
+    if (name == NULL) {
+        return is_data(uri) ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
+    }
+    turn_backslashes(name);
+    alp_result result = ALP_OK;
+    if (alpi_uri_decode(name)) {
+        result = alpi_find_uri(document->context, document->folder, name, path, found);
+    }
+    alpi_release(document->context, name);
+    return result == ALP_OK && *path == NULL ? alpi_gltf_uri_path(document, uri, owner, path)
+                                             : result;
+}
+
+alp_result alpi_gltf_reference_path(const alpi_gltf_document *document, const char *kind,
+                                    const char *uri, char **path)
+{
+    alpi_found found;
+    return strcmp(kind, "images") == 0 ? alpi_gltf_image_path(document, uri, kind, path, &found)
+                                       : alpi_gltf_uri_path(document, uri, kind, path);
+}
+
+alp_result alpi_gltf_image_read(const alpi_gltf_document *document, const char *uri,
+                                const char *owner, uint8_t **bytes, size_t *size)
+{
+    char *path = NULL;
+    alpi_found found;
+    *bytes = NULL;
+    *size = 0;
+    ALP_TRY(alpi_gltf_image_path(document, uri, owner, &path, &found));
+    return path == NULL ? read_data_uri(document, uri, owner, bytes, size)
+                        : read_path(document, path, owner, bytes, size);
+}
+
+alp_result alpi_gltf_note_image(const alpi_gltf_document *document, const char *uri)
+{
+    char *path = NULL, shown[256];
+    alpi_found found;
+    const alp_result result = alpi_gltf_image_path(document, uri, "images", &path, &found);
+    if (result == ALP_OK && path != NULL) {
+        const size_t length = strlen(document->folder);
+        const bool below = strncmp(path, document->folder, length) == 0;
+        snprintf(shown, sizeof shown, "%s", uri);
+        alpi_gltf_clean(shown);
+        alpi_note_found(document->context, shown, path + (below ? length : 0), found);
     }
     alpi_release(document->context, path);
-    return result;
+    return result == ALP_ERROR_OUT_OF_MEMORY ? result : ALP_OK;
 }
 
 // --- buffer views -------------------------------------------------------------------------------

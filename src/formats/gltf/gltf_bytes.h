@@ -3,6 +3,7 @@
 #ifndef ALPI_FORMATS_GLTF_BYTES_H
 #define ALPI_FORMATS_GLTF_BYTES_H
 
+#include "formats/files/find_file.h"
 #include "formats/gltf/gltf_document.h"
 
 /// No file that we read is larger than this.
@@ -18,6 +19,20 @@ alp_result alpi_gltf_uri_read(const alpi_gltf_document *document, const char *ur
 /// data: URI. The same refusals as above.
 alp_result alpi_gltf_uri_path(const alpi_gltf_document *document, const char *uri,
                               const char *owner, char **path);
+
+/// The file of an image, found as formats/files/find_file.h does. *path is NULL for a data: URI,
+/// and is released by the caller. Without a file the refusals are those above, or *path is not
+/// there.
+alp_result alpi_gltf_image_path(const alpi_gltf_document *document, const char *uri,
+                                const char *owner, char **path, alpi_found *found);
+/// The bytes of an image, as alpi_gltf_uri_read reads others.
+alp_result alpi_gltf_image_read(const alpi_gltf_document *document, const char *uri,
+                                const char *owner, uint8_t **bytes, size_t *size);
+/// The path of one of "images", or of "buffers".
+alp_result alpi_gltf_reference_path(const alpi_gltf_document *document, const char *kind,
+                                    const char *uri, char **path);
+/// Notes an image whose file was not found as named.
+alp_result alpi_gltf_note_image(const alpi_gltf_document *document, const char *uri);
 
 /// A buffer view inside its buffer.
 typedef struct alpi_gltf_view {

@@ -48,7 +48,7 @@ static alp_result find_bytes(const alpi_gltf_document *document, size_t index, c
     if (uri == NULL) {
         return alpi_gltf_fail(document, owner, "has neither uri nor bufferView");
     }
-    ALP_TRY(alpi_gltf_uri_read(document, uri, owner, owned, &view->size));
+    ALP_TRY(alpi_gltf_image_read(document, uri, owner, owned, &view->size));
     view->bytes = *owned;
     return ALP_OK;
 }
@@ -143,7 +143,9 @@ alp_result alpi_gltf_read_images(alpi_gltf_reader *reader)
     mark_images(reader, needed);
     alp_result result = ALP_OK;
     for (size_t i = 0; i < count && result == ALP_OK; i++) {
-        if (needed[i]) {
+        const char *uri = alpi_gltf_text(alpi_gltf_item(reader->document, "images", i), "uri");
+        result = uri != NULL ? alpi_gltf_note_image(reader->document, uri) : ALP_OK;
+        if (result == ALP_OK && needed[i]) {
             result = alpi_gltf_read_image(reader->document, i, &scene->images[i]);
         }
     }

@@ -56,7 +56,7 @@ static alp_result read_file(const alpi_gltf_document *document, const char *uri,
     static const uint8_t ktx2[] = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb};
     uint8_t *bytes = NULL;
     size_t size = 0;
-    ALP_TRY(alpi_gltf_uri_read(document, uri, owner, &bytes, &size));
+    ALP_TRY(alpi_gltf_image_read(document, uri, owner, &bytes, &size));
     const bool is_ktx2 = size >= sizeof ktx2 && memcmp(bytes, ktx2, sizeof ktx2) == 0;
     const alp_result result =
         is_ktx2 ? read_ktx2(document, bytes, size, image)

@@ -139,6 +139,8 @@ static alp_result read_metallic_roughness(const source *from, alpi_material *mat
                              &roughness));
     material->shine.roughness = fminf(fmaxf(alpi_gltf_float(roughness), 0.0f), 1.0f);
     ALP_TRY(read_texture(from, object, "metallicRoughnessTexture", &material->metallic_texture));
+    material->metallic_assumed = json_object_get(object, "metallicFactor") == NULL &&
+                                 material->metallic_texture.image == ALPI_NONE;
     material->shine.roughness_texture = material->metallic_texture;
     return ALP_OK;
 }

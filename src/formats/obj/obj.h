@@ -36,7 +36,7 @@ typedef struct alpi_obj_face {
     uint32_t line; // for messages; the last 32 bits
 } alpi_obj_face;
 
-/// What is alike in object, group and material becomes one surface.
+/// Faces of one object, group and material become one surface.
 typedef struct alpi_obj_surface {
     uint32_t object;   // number of its name
     uint32_t material; // number in material_names, ALPI_NONE = none
@@ -51,13 +51,13 @@ typedef struct alpi_obj_file {
     size_t size;
 } alpi_obj_file;
 
-/// An OBJ as it stands.
+/// The statements of an OBJ.
 typedef struct alpi_obj {
     alp_context *context;
     const char *path;
     char *folder;           // with a slash, or ""
     double (*positions)[3]; // of the file; each rounds to the float nearest to its digits
-    float (*colors)[3];     // [position_count] as the file says them; NULL: it has none
+    float (*colors)[3];     // [position_count] in the numbers of the file; NULL: it has none
     float (*normals)[3];
     float (*uvs)[2];        // v = 0 at the top, as everywhere in the scene
     uint32_t (*corners)[3]; // position, uv, normal: from 0, ALPI_NONE = not given

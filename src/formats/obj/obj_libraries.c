@@ -35,11 +35,21 @@ static alp_result read_statements(alpi_mtl_reader *r, const char *path, const al
                           .line = 1};
     r->folder = file->folder;
     r->skipping = true; // until its first newmtl
-    alp_result result = ALP_OK;
-    while (result == ALP_OK && alpi_obj_next_line(&text)) {
-        result = alpi_mtl_read_statement(r, &text);
+    char first_fault[256];
+    uint64_t faults = 0;
+    while (alpi_obj_next_line(&text)) {
+        const alp_result result = alpi_mtl_read_statement(r, &text);
+        if (result == ALP_ERROR_INVALID_DATA && faults++ == 0) {
+            alpi_obj_copy_fault(&text, first_fault, sizeof first_fault);
+        } else if (result != ALP_OK && result != ALP_ERROR_INVALID_DATA) {
+            return result;
+        }
     }
-    return result == ALP_OK ? alpi_mtl_finish_material(r) : result;
+    if (faults > 0) {
+        alpi_warn(r->obj->context, "mtl-numbers", path, "%s; such statements are left out: %llu",
+                  first_fault, (unsigned long long)faults);
+    }
+    return alpi_mtl_finish_material(r);
 }
 
 static alp_result read_library(alpi_mtl_reader *r, const char *path, const char *inner)
@@ -65,7 +75,7 @@ static alp_result read_library(alpi_mtl_reader *r, const char *path, const char 
     return keep_library(r->obj, file);
 }
 
-/// Where a library is: as named, in another case or by its own name beside the asset.
+/// Finds a library: as named, in another case or by its own name beside the asset.
 static alp_result find_library(const alpi_mtl_reader *r, alpi_obj_word name, char **inner,
                                bool *found)
 {

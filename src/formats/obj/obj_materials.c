@@ -3,9 +3,9 @@
 // Pm, bump, norm), which have no part in diffuse light, for files that are written.
 #include "formats/obj/obj_materials.h"
 
-#include "base/decimal.h"
 #include "base/memory.h"
 #include "formats/files/outside.h"
+#include "formats/text/utf8.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@ static alpi_material *last_material(const alpi_mtl_reader *r)
 
 void alpi_mtl_show(alpi_obj_word word, char text[128])
 {
-    snprintf(text, 128, "%.*s", (int)(word.size < 120 ? word.size : 120), word.text);
+    alpi_utf8_print(word.text, word.size, text, 128);
     for (char *c = text; *c != '\0'; c++) {
         *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
     }
@@ -110,7 +110,7 @@ static alp_result join_mask(alpi_mtl_reader *r, alpi_material *m)
     return result;
 }
 
-/// d says it, else Tr; exporters disagree on the sign of Tr, and nobody models the invisible.
+/// Alpha is d, else 1 − Tr; exporters disagree on the sign of Tr, and nobody models the invisible.
 static alp_result finish_alpha(alpi_mtl_reader *r, alpi_material *m)
 {
     if (!r->has_opacity && r->transparency >= 1.0f) {
@@ -147,7 +147,7 @@ static void finish_shine(const alpi_mtl_reader *r, alpi_shine *shine)
         shine->roughness = powf(2.0f / (r->exponent + 2.0f), 0.25f);
     }
     if (!r->has_roughness && shine->roughness_texture.image != ALPI_NONE) {
-        shine->roughness = 1.0f; // the map says it
+        shine->roughness = 1.0f; // the map holds it
     }
     shine->roughness = fminf(fmaxf(shine->roughness, 0.0f), 1.0f);
     for (int k = 0; k < 3; k++) {
@@ -162,7 +162,7 @@ alp_result alpi_mtl_finish_material(alpi_mtl_reader *r)
     }
     alpi_material *m = last_material(r);
     if (r->occlusion && m->base_color_texture.image == m->occlusion_texture.image) {
-        m->base_color_texture = alpi_texture_none(); // we put it there, for viewers to show
+        m->base_color_texture = alpi_texture_none(); // an earlier bake put it there for viewers
     } else if (!r->occlusion) {
         m->occlusion_texture = alpi_texture_none(); // map_Ka alone means something else
     }
@@ -198,7 +198,9 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     r->model = 2;
     r->mask = alpi_texture_none();
     if (!added) {
-        alpi_note(r->obj->context, "material", alpi_obj_name(&r->names, number),
+        char shown[128];
+        alpi_mtl_show(name, shown);
+        alpi_note(r->obj->context, "material", shown,
                   "%s: line %llu: there is a material of this name already, which is used", t->path,
                   (unsigned long long)t->line);
         return ALP_OK;
@@ -209,7 +211,7 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     s->materials = items;
     alpi_material *m = &s->materials[s->material_count];
     *m = alpi_material_default();
-    m->name = alpi_copy_string(r->obj->context, alpi_obj_name(&r->names, number));
+    m->name = alpi_utf8_copy(r->obj->context, name.text, name.size);
     if (m->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
@@ -220,41 +222,61 @@ static alp_result start_material(alpi_mtl_reader *r, alpi_obj_text *t)
     return ALP_OK;
 }
 
-/// Three numbers, or one that stands for all. A spectrum file and CIE XYZ are not read.
-static alp_result read_color(alpi_mtl_reader *r, alpi_obj_text *t, const char *what, float color[3])
+/// Three numbers, or one for all.
+static alp_result take_color(alpi_obj_text *t, const char *what, float color[3])
+{
+    float values[3];
+    ALP_TRY(alpi_obj_take_float(t, what, &values[0]));
+    values[1] = values[2] = values[0];
+    for (int k = 1; k < 3 && alpi_obj_more(t); k++) {
+        ALP_TRY(alpi_obj_take_float(t, what, &values[k]));
+    }
+    memcpy(color, values, sizeof values);
+    return ALP_OK;
+}
+
+/// A spectrum file and CIE XYZ are not read. *has: whether the material has the colour
+static alp_result read_color(alpi_mtl_reader *r, alpi_obj_text *t, const char *what, float color[3],
+                             bool *has)
 {
     alpi_obj_text ahead = *t;
-    if (!alpi_mtl_is_number(alpi_obj_take_word(&ahead))) {
+    const alpi_obj_word first = alpi_obj_take_word(&ahead);
+    if (alpi_obj_word_is(first, "spectral") || alpi_obj_word_is(first, "xyz")) {
+        *has = true; // of an unknown value
         alpi_note(r->obj->context, "color", last_material(r)->name,
                   "%s: line %llu: %s is read as red, green and blue only", t->path,
                   (unsigned long long)t->line, what);
         return ALP_OK;
     }
-    ALP_TRY(alpi_obj_take_float(t, what, &color[0]));
-    color[1] = color[2] = color[0];
-    for (int k = 1; k < 3 && alpi_obj_more(t); k++) {
-        ALP_TRY(alpi_obj_take_float(t, what, &color[k]));
-    }
+    ALP_TRY(take_color(t, what, color));
+    *has = true;
+    return ALP_OK;
+}
+
+/// A value that stays where there is no number.
+static alp_result take_number(alpi_obj_text *t, const char *what, float *value)
+{
+    float number;
+    ALP_TRY(alpi_obj_take_float(t, what, &number));
+    *value = number;
     return ALP_OK;
 }
 
 static alp_result read_opacity(alpi_obj_text *t, const char *what, float *value)
 {
-    if (alpi_obj_more(t) && !alpi_mtl_is_number((alpi_obj_word){t->at, 1})) {
-        (void)alpi_obj_take_word(t); // -halo
+    alpi_obj_text ahead = *t;
+    if (alpi_obj_word_is(alpi_obj_take_word(&ahead), "-halo")) {
+        *t = ahead;
     }
-    return alpi_obj_take_float(t, what, value);
+    return take_number(t, what, value);
 }
 
-/// A number that light does not read: another word in its place is passed.
-static bool take_quiet_number(alpi_obj_text *t, float *value)
+static alp_result read_model(alpi_obj_text *t, int *model)
 {
-    const alpi_obj_word word = alpi_obj_take_word(t);
     float number;
-    const char *end = word.text + word.size;
-    const bool whole = word.size > 0 && alpi_decimal_float(word.text, end, &number) == end;
-    *value = whole && isfinite(number) ? number : *value;
-    return whole;
+    ALP_TRY(take_number(t, "illum", &number));
+    *model = number >= 0.0f && number < 2.0f ? (int)number : 2;
+    return ALP_OK;
 }
 
 /// Gloss and relief.
@@ -262,24 +284,22 @@ static alp_result read_shine(alpi_mtl_reader *r, alpi_obj_text *t, alpi_obj_word
 {
     alpi_material *m = last_material(r);
     alpi_shine *shine = &m->shine;
-    float number = 2.0f;
     if (alpi_obj_word_is(key, "Ks")) {
-        shine->has_specular = take_quiet_number(t, &shine->specular[0]);
-        shine->specular[1] = shine->specular[2] = shine->specular[0];
-        for (int k = 1; k < 3 && alpi_obj_more(t); k++) {
-            take_quiet_number(t, &shine->specular[k]);
-        }
-    } else if (alpi_obj_word_is(key, "Ns")) {
-        take_quiet_number(t, &r->exponent);
-    } else if (alpi_obj_word_is(key, "Ni")) {
-        take_quiet_number(t, &shine->index);
-    } else if (alpi_obj_word_is(key, "Pr")) {
-        r->has_roughness = take_quiet_number(t, &shine->roughness);
+        return read_color(r, t, "Ks", shine->specular, &shine->has_specular);
+    }
+    if (alpi_obj_word_is(key, "Ns")) {
+        return take_number(t, "Ns", &r->exponent);
+    }
+    if (alpi_obj_word_is(key, "Ni")) {
+        return take_number(t, "Ni", &shine->index);
+    }
+    if (alpi_obj_word_is(key, "Pr")) {
+        ALP_TRY(take_number(t, "Pr", &shine->roughness));
+        r->has_roughness = true;
     } else if (alpi_obj_word_is(key, "Pm")) {
-        take_quiet_number(t, &m->metallic);
+        return take_number(t, "Pm", &m->metallic);
     } else if (alpi_obj_word_is(key, "illum")) {
-        take_quiet_number(t, &number);
-        r->model = number >= 0.0f && number < 2.0f ? (int)number : 2;
+        return read_model(t, &r->model);
     } else if (alpi_obj_word_is(key, "map_Ks")) {
         shine->has_specular = true;
         return read_quiet_texture(r, t, &shine->specular_texture, NULL);
@@ -290,7 +310,7 @@ static alp_result read_shine(alpi_mtl_reader *r, alpi_obj_text *t, alpi_obj_word
     } else if (alpi_obj_word_is(key, "norm") || alpi_obj_word_is(key, "map_Kn")) {
         return read_quiet_texture(r, t, &m->normal_texture, &m->normal_scale);
     } else if (alpi_obj_word_is(key, "map_Bump") || alpi_obj_word_is(key, "map_bump") ||
-               alpi_obj_word_is(key, "bump")) { // heights or normals: it does not say
+               alpi_obj_word_is(key, "bump")) { // heights or normals: the file does not state which
         return read_quiet_texture(r, t, &shine->bump_texture, &shine->bump_scale);
     }
     return ALP_OK;
@@ -307,16 +327,15 @@ alp_result alpi_mtl_read_statement(alpi_mtl_reader *r, alpi_obj_text *t)
     }
     alpi_material *m = last_material(r);
     if (alpi_obj_word_is(key, "Kd")) {
-        r->has_color = true;
-        return read_color(r, t, "Kd", m->base_color);
+        return read_color(r, t, "Kd", m->base_color, &r->has_color);
     }
     if (alpi_obj_word_is(key, "Ke")) {
-        r->has_emission = true;
-        return read_color(r, t, "Ke", m->emission);
+        return read_color(r, t, "Ke", m->emission, &r->has_emission);
     }
     if (alpi_obj_word_is(key, "d")) {
+        ALP_TRY(read_opacity(t, "d", &m->base_color[3]));
         r->has_opacity = true;
-        return read_opacity(t, "d", &m->base_color[3]);
+        return ALP_OK;
     }
     if (alpi_obj_word_is(key, "Tr")) {
         return read_opacity(t, "Tr", &r->transparency);

@@ -20,7 +20,7 @@ typedef struct alpi_mtl_reader {
     bool has_emission;      // … and Ke
     bool has_opacity;       // … and d
     bool has_roughness;     // … and Pr
-    bool occlusion;         // map_Ka holds occlusion (our own files say so)
+    bool occlusion;         // map_Ka holds occlusion (our own files mark it)
     float transparency;     // Tr
     float exponent;         // Ns, negative = none
     int model;              // illum
@@ -47,12 +47,12 @@ alp_result alpi_mtl_take_picture(alpi_obj_text *text, const char *folder, const 
 
 /// A word that may begin a number.
 bool alpi_mtl_is_number(alpi_obj_word word);
-/// A copy of a word for messages, without control characters.
+/// A copy of a word for messages: UTF-8 without control characters.
 void alpi_mtl_show(alpi_obj_word word, char text[128]);
 
 /// Reads a statement of a library.
 alp_result alpi_mtl_read_statement(alpi_mtl_reader *reader, alpi_obj_text *text);
-/// What the statements of the last material say together.
+/// Ends the last material: values that follow from several of its statements.
 alp_result alpi_mtl_finish_material(alpi_mtl_reader *reader);
 
 #endif

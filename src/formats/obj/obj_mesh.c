@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "formats/polygon/polygon.h"
+#include "formats/text/utf8.h"
 #include "scene/origin.h"
 
 #include <string.h>
@@ -320,7 +321,8 @@ static alp_result add_surface(builder *b, uint32_t index, const uint32_t *scene_
     alp_scene *s = b->scene;
     alpi_surface *surface = &s->surfaces[s->surface_count++];
     *surface = (alpi_surface){
-        .name = alpi_copy_string(o->context, alpi_obj_name(&o->objects, from->object)),
+        .name = alpi_utf8_copy(o->context, alpi_obj_name(&o->objects, from->object),
+                               o->objects.sizes[from->object]),
         .node = from->object,
         .mesh = from->object,
         .primitive = primitive,

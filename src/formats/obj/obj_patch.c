@@ -196,7 +196,7 @@ static void start_text(alpi_obj_patcher *p)
                               .line = 1};
 }
 
-/// What must be known before the first statement is written.
+/// Counts what the first written statement depends on: libraries, normals and the places of vt.
 static alp_result survey(alpi_obj_patcher *p)
 {
     start_text(p);

@@ -17,11 +17,11 @@ typedef struct alpi_obj_patcher {
     alpi_obj_text text;
     const char *copied;      // the source up to here is written
     bool replaces;           // coordinates are new
-    bool has_library;        // an mtllib stands in the text
+    bool has_library;        // the text has an mtllib
     bool library_named;      // … and was written
     alpi_bytes *out;         // the OBJ, or `run` behind its first face
     alpi_bytes run;          // faces without other statements between them
-    alpi_json_span *old_uvs; // [old_uv_count] where each vt stands
+    alpi_json_span *old_uvs; // [old_uv_count] place of each vt
     size_t old_uv_capacity;
     uint32_t old_uv_count, uvs_so_far; // of the source; of them before `text`
     uint32_t normal_count;             // of the source
@@ -41,7 +41,7 @@ typedef struct alpi_obj_patcher {
 
 /// Writes the source up to a place.
 void alpi_obj_copy_up_to(alpi_obj_patcher *p, const char *end);
-/// Begin of the line that a statement stands on.
+/// Begin of the line of a statement.
 const char *alpi_obj_line_begin(const alpi_obj_patcher *p, const char *at);
 /// A statement that names the material of the next face, where it is not the current one.
 alp_result alpi_obj_name_material(alpi_obj_patcher *p, alpi_obj_use use);

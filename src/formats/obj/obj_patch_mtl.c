@@ -34,10 +34,10 @@ typedef struct block {
     bool is_repeated;  // the second of its name
 } block;
 
-/// What one writing of a block has so far.
+/// The state of one writing of a block.
 typedef struct writing {
     alpi_obj_use use;
-    const char *name;   // NULL: as it stands
+    const char *name;   // NULL: its own
     const char *copied; // the library up to here is written
     const char *last;   // end of the last statement
     bool occluded, lit;
@@ -125,16 +125,25 @@ static void drop(patcher *p, const block *b, writing *x, alpi_obj_text *t, const
     x->copied = t->at;
 }
 
-/// Keeps the words of a statement as a comment: the picture has no coordinates any more.
-static void comment_out(patcher *p, const block *b, writing *x, const char *keyword)
+/// Keeps the words of a statement as a comment: new charts take the coordinates of its picture. A
+/// picture that is not there is no loss.
+static alp_result comment_out(patcher *p, const block *b, writing *x, alpi_obj_text *t,
+                              const char *keyword)
 {
+    alpi_mtl_picture picture;
+    bool *lost = &p->w->texture_lost[b->material];
     copy_up_to(p, x, line_begin(b, keyword));
     alpi_bytes_print(&p->w->mtl, "# ");
-    bool *lost = &p->w->texture_lost[b->material];
-    if (!*lost) {
-        alpi_obj_warn_of_textures(p->w, &p->w->scene->materials[b->material]);
+    const alp_result result =
+        alpi_mtl_take_picture(t, p->source->folder, p->library->folder, &picture);
+    alpi_release(p->w->context, picture.path);
+    if (result == ALP_OK && picture.found != ALPI_FOUND_NOTHING && !*lost) {
+        alpi_warn(p->w->context, "texture-lost", p->w->scene->materials[b->material].name,
+                  "its textures need the vt that new charts replace, and are comments in the .mtl; "
+                  "write .glb, which holds both, or --atlas keep if the vt do not overlap");
+        *lost = true;
     }
-    *lost = true;
+    return result == ALP_ERROR_INVALID_DATA ? ALP_OK : result;
 }
 
 /// A picture that stays, by a path that is valid from the written file.
@@ -143,6 +152,9 @@ static alp_result keep_picture(patcher *p, writing *x, alpi_obj_text *t)
     alpi_mtl_picture picture;
     char *path = NULL;
     alp_result result = alpi_mtl_take_picture(t, p->source->folder, p->library->folder, &picture);
+    if (result == ALP_ERROR_INVALID_DATA) {
+        return ALP_OK; // a bad number: the statement means nothing, and stays
+    }
     if (result == ALP_OK && picture.found != ALPI_FOUND_NOTHING) {
         result = written_path(p, picture.path, &path);
     }
@@ -198,14 +210,13 @@ static alp_result write_statement(patcher *p, const block *b, writing *x, alpi_o
         return ALP_OK;
     }
     if (x->loses_pictures && !alpi_obj_word_is(key, "refl")) {
-        comment_out(p, b, x, keyword);
-        return ALP_OK;
+        return comment_out(p, b, x, t, keyword);
     }
     x->has_picture |= alpi_obj_word_is(key, "map_Kd");
     return keep_picture(p, x, t);
 }
 
-/// What the bake adds.
+/// Adds the maps of the bake.
 static void write_maps(patcher *p, const writing *x)
 {
     alpi_obj_writer *w = p->w;

@@ -21,7 +21,8 @@ typedef struct parser {
     uint32_t surface;  // of the next face, ALPI_NONE = to be found
     alpi_obj_names keys;
     float largest_color; // component
-    uint64_t lines_and_points, small_faces, unknown;
+    uint64_t lines_and_points, small_faces, unknown, bad_normals;
+    char first_fault[256]; // of the normals
     char unknown_word[24];
 } parser;
 
@@ -120,7 +121,13 @@ static alp_result read_normal(parser *p)
     o->normals = items;
     float *value = o->normals[o->normal_count++];
     for (int k = 0; k < 3; k++) {
-        ALP_TRY(alpi_obj_take_float(&p->text, "vn", &value[k]));
+        if (alpi_obj_take_float(&p->text, "vn", &value[k]) != ALP_OK) {
+            memset(value, 0, sizeof *o->normals); // faces name those behind it by their numbers
+            if (p->bad_normals++ == 0) {
+                alpi_obj_copy_fault(&p->text, p->first_fault, sizeof p->first_fault);
+            }
+            break;
+        }
     }
     return ALP_OK;
 }
@@ -278,7 +285,7 @@ static alp_result read_face(parser *p)
 
 // --- statements ----------------------------------------------------------------------------------
 
-/// "a/b/chair.obj" → "chair": the name of faces that stand in no object and no group.
+/// "a/b/chair.obj" → "chair": the name of faces in no object and no group.
 static alpi_obj_word file_stem(const char *path)
 {
     const char *name = alpi_path_name(path), *dot = strrchr(name, '.');
@@ -349,7 +356,7 @@ static alp_result read_statement(parser *p)
     return read_other(p, keyword);
 }
 
-static void tell(const parser *p)
+static void report(const parser *p)
 {
     alp_context *context = p->obj->context;
     const char *path = p->obj->path;
@@ -357,14 +364,20 @@ static void tell(const parser *p)
         alpi_warn(context, "bad-faces", path, "%llu faces of less than three corners left out",
                   (unsigned long long)p->small_faces);
     }
+    if (p->bad_normals > 0) {
+        alpi_warn(context, "bad-normals", path, "%s; such normals are read as none: %llu",
+                  p->first_fault, (unsigned long long)p->bad_normals);
+    }
     if (p->lines_and_points > 0) {
-        alpi_note(context, "not-triangles", path, "%llu statements of lines and points left out",
-                  (unsigned long long)p->lines_and_points);
+        alpi_note(
+            context, "not-triangles", path,
+            "%llu statements of lines and points have no part in the bake; an .obj keeps them",
+            (unsigned long long)p->lines_and_points);
     }
     if (p->unknown > 0) {
         alpi_note(context, "statements", path,
-                  "%llu statements left out, such as \"%s\": only v, vt, vn, f, o, g, usemtl and"
-                  " mtllib are read",
+                  "%llu statements have no part in the bake, such as \"%s\": only v, vt, vn, f, o, "
+                  "g, usemtl and mtllib are read; an .obj keeps them",
                   (unsigned long long)p->unknown, p->unknown_word);
     }
 }
@@ -416,7 +429,7 @@ alp_result alpi_obj_parse(alp_context *context, const char *path, const char *te
     }
     if (result == ALP_OK) {
         scale_colors(&p);
-        tell(&p);
+        report(&p);
     }
     return result;
 }

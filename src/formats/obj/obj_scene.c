@@ -43,7 +43,7 @@ static alp_result read_text(alp_context *context, const char *path, alpi_obj_fil
         result = alpi_scene_create(context, path, &made);
     }
     if (result == ALP_OK) {
-        made->unit_assumed = true; // an OBJ has nowhere to say it
+        made->unit_assumed = true; // an OBJ cannot state it
         result = fill_scene(&obj, file, made);
     }
     alpi_obj_destroy(&obj);

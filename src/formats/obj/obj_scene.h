@@ -10,9 +10,9 @@
 /// Reads an .obj and its material libraries into a scene. No unit is stated: metres are taken.
 alp_result alpi_obj_read_scene(alp_context *context, const char *path, alp_scene **scene);
 
-/// Notes what the material libraries of a scene say that glTF has no place for, each kind once.
+/// Notes the statements in a scene's material libraries that glTF has no place for, each kind once.
 /// Nothing for a scene of another format.
-void alpi_obj_note_losses(const alp_scene *scene);
+alp_result alpi_obj_note_losses(const alp_scene *scene);
 
 /// Writes a scene with the patch as OUT.obj, OUT.mtl and pictures. A scene read from an OBJ is
 /// written as the text that was read, with coordinates and maps of the bake; any other in world

@@ -3,6 +3,7 @@
 #include "formats/obj/obj_text.h"
 
 #include "base/decimal.h"
+#include "formats/text/utf8.h"
 
 #include <float.h>
 #include <math.h>
@@ -14,16 +15,26 @@ enum { SHOWN = 40 }; // bytes of a faulty word that a message repeats
 
 alp_result alpi_obj_fail(const alpi_obj_text *text, const char *format, ...)
 {
-    char fault[256];
+    char said[256], fault[2 * sizeof said];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(fault, sizeof fault, format, arguments);
+    vsnprintf(said, sizeof said, format, arguments);
     va_end(arguments);
+    alpi_utf8_print(said, strlen(said), fault, sizeof fault);
     for (char *c = fault; *c != '\0'; c++) {
         *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
     }
     return alpi_fail(text->context, ALP_ERROR_INVALID_DATA, "%s: line %llu: %s", text->path,
                      (unsigned long long)text->line, fault);
+}
+
+void alpi_obj_copy_fault(const alpi_obj_text *text, char *fault, size_t room)
+{
+    const char *message = alp_context_message(text->context);
+    const size_t size = strlen(text->path);
+    const bool named = strncmp(message, text->path, size) == 0 && message[size] == ':';
+    message += named ? size + 2 : 0;
+    alpi_utf8_print(message, strlen(message), fault, room);
 }
 
 static bool is_blank(char c)

@@ -33,12 +33,14 @@ alpi_obj_word alpi_obj_take_word(alpi_obj_text *text);
 alpi_obj_word alpi_obj_take_rest(alpi_obj_text *text);
 bool alpi_obj_word_is(alpi_obj_word word, const char *name);
 
-/// Takes a finite number. What is beyond the range of floats comes as the largest. `what` names
+/// Takes a finite number that a float can hold. `what` names
 /// the statement, "v".
 /// @return ALP_OK; INVALID_DATA (none there, or no number)
 alp_result alpi_obj_take_float(alpi_obj_text *text, const char *what, float *value);
 alp_result alpi_obj_take_double(alpi_obj_text *text, const char *what, double *value);
 
+/// Copies the last fault for a warning: "line N: FAULT".
+void alpi_obj_copy_fault(const alpi_obj_text *text, char *fault, size_t room);
 /// "PATH: line N: FAULT" @return INVALID_DATA
 alp_result alpi_obj_fail(const alpi_obj_text *text, const char *format, ...) ALP_PRINTF(2, 3);
 

@@ -178,9 +178,9 @@ static bool read_commented(alpi_obj_word rest, const options *o, reading *r)
     return false;
 }
 
-/// Looks for the file of a reading.
-static alp_result look(alp_context *context, const char *folder, const char *from, const reading *r,
-                       alpi_mtl_picture *picture)
+/// Finds the file of a reading.
+static alp_result find_picture(alp_context *context, const char *folder, const char *from,
+                               const reading *r, alpi_mtl_picture *picture)
 {
     alpi_release(context, picture->path);
     picture->path = NULL;
@@ -190,7 +190,7 @@ static alp_result look(alp_context *context, const char *folder, const char *fro
     picture->bump = r->options.bump;
     alpi_texture *texture = &picture->texture;
     texture->wrap_u = texture->wrap_v = r->options.clamped ? ALPI_WRAP_CLAMP : ALPI_WRAP_REPEAT;
-    // The file says w = o + s·w of w = 1 − v; ours is v' = 1 − o − s + s·v.
+    // The file reads w = o + s·w of w = 1 − v; ours is v' = 1 − o − s + s·v.
     texture->scale[0] = r->options.scale[0];
     texture->offset[0] = r->options.offset[0];
     texture->scale[1] = r->options.scale[1];
@@ -226,10 +226,10 @@ alp_result alpi_mtl_take_picture(alpi_obj_text *t, const char *folder, const cha
     count += read_commented(rest, &o, &readings[count]);
     count += read_unknown(rest, &o, &readings[count]);
     for (size_t i = 0; i < count; i++) {
-        ALP_TRY(look(t->context, folder, from, &readings[i], picture));
+        ALP_TRY(find_picture(t->context, folder, from, &readings[i], picture));
         if (picture->found != ALPI_FOUND_NOTHING) {
             return ALP_OK;
         }
     }
-    return count == 1 ? ALP_OK : look(t->context, folder, from, &readings[1], picture);
+    return count == 1 ? ALP_OK : find_picture(t->context, folder, from, &readings[1], picture);
 }

@@ -392,7 +392,7 @@ static bool sets_are_equal(const alp_scene *scene, uint32_t set)
            memcmp(scene->uvs[0], scene->uvs[set], scene->vertex_count * sizeof *scene->uvs[0]) == 0;
 }
 
-/// What a file begins with: who wrote it, how it was baked.
+/// Begins both files: the version that wrote them, and the settings of the bake.
 static void print_header(alpi_obj_writer *w)
 {
     alpi_bytes_print(&w->mtl, "# Alpenglow %s\n", alp_version());

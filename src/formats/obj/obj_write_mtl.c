@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The material library beside a written OBJ, and the pictures that it names. Occlusion is map_Ka,
 // which scales ambient light; most viewers know map_Kd alone, so it is that too where no texture
-// takes its place. "alpenglow_occlusion" says so to our own reader; others pass what they do not
+// takes its place. "alpenglow_occlusion" marks it for our own reader; others pass what they do not
 // know.
 #include "formats/obj/obj_write.h"
 
@@ -84,9 +84,12 @@ bool alpi_obj_print_texture(alpi_obj_writer *w, alpi_obj_use use, const char *wh
     if (texture->image == ALPI_NONE || texture->image >= w->scene->image_count) {
         return false;
     }
-    if (open_image(w, texture->image) == NULL || texture->rotation != 0.0f ||
-        texture->wrap_u == ALPI_WRAP_MIRROR || texture->wrap_v == ALPI_WRAP_MIRROR ||
-        !has_coordinates(w, use, texture)) {
+    const alp_image *image = open_image(w, texture->image);
+    if (image == NULL && w->images[texture->image] == NULL) {
+        return false; // the reader has warned of it
+    }
+    if (image == NULL || texture->rotation != 0.0f || texture->wrap_u == ALPI_WRAP_MIRROR ||
+        texture->wrap_v == ALPI_WRAP_MIRROR || !has_coordinates(w, use, texture)) {
         w->texture_lost[use.material] = true;
         return false;
     }

@@ -30,3 +30,11 @@ glow='{"emissiveFactor":[1,1,1],"pbrMetallicRoughness":{"metallicFactor":0}}'
 room "$glow" "${many#,}$(printf ',{"mesh":0,"scale":[%d,4,4]}' {2..22})" "$lights" >many.gltf
 alpenglow info many.gltf 2>/dev/null | grep '^light ' | tail -n 22
 alpenglow info many.gltf --json 2>/dev/null | grep -c '"kind"'
+echo "== metal matters where viewers multiply a light map"
+light='--maps light --sky 1,1,1'
+for options in '-o ao.glb' "$light -o lit.glb" "$light --lightmap-as extras -o extras.glb" \
+    "$light --maps-dir loose"; do
+    # shellcheck disable=SC2086
+    alpenglow bake metal.gltf $options --size 16 --error 50 >metal.txt 2>&1
+    echo "$options: $?, $(grep -c 'is metal' metal.txt)"
+done

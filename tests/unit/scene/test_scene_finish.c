@@ -200,44 +200,28 @@ TEST(indices_out_of_range_are_errors)
     }
 }
 
+/// Metals by default are warned of, where they have a colour and more than half of the area.
 TEST_WITH_CONTEXT(a_metal_scene_says_so, 1)
 {
-    for (int metal = 0; metal <= 1; metal++) {
+    static const struct {
+        float metallic, color;
+        bool assumed, told;
+    } cases[] = {{0.9f, 1.0f, true, true},
+                 {0.89f, 1.0f, true, false},
+                 {0.9f, 0.0f, true, false},
+                 {1.0f, 1.0f, false, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         alpi_builder builder;
         start(&builder, context);
         add_triangle(&builder, 2.0f, UP);
         alp_scene *scene = finish(&builder);
-        scene->materials[0].metallic = metal ? 0.9f : 0.89f;
+        alpi_material *m = &scene->materials[0];
+        m->metallic = cases[i].metallic;
+        m->metallic_assumed = cases[i].assumed;
+        m->base_color[0] = m->base_color[1] = m->base_color[2] = cases[i].color;
         test_log_clear();
-        ASSERT_OK(context, alpi_scene_finish(scene));
-        assert_int_equal(test_log_has("metal"), metal);
-        alp_scene_destroy(scene);
-    }
-}
-
-/// Of a picture with one texel of metal and one of none.
-TEST_WITH_CONTEXT(metal_in_a_texture_counts, 1)
-{
-    for (int metal = 0; metal <= 1; metal++) {
-        alpi_builder builder;
-        start(&builder, context);
-        add_triangle(&builder, 2.0f, UP);
-        alp_scene *scene = finish(&builder);
-        scene->uvs[0] = alpi_allocate(context, 3, sizeof *scene->uvs[0]);
-        scene->images = ALPI_NEW(context, alp_image *, 1);
-        assert_true(scene->uvs[0] != NULL && scene->images != NULL);
-        scene->image_count = 1;
-        ASSERT_OK(context, alp_image_create(context, (alp_image_info){2, 1, 4, ALP_COMPONENT_U8},
-                                            &scene->images[0]));
-        memcpy(alp_image_bytes(scene->images[0]), (uint8_t[]){0, 0, 255, 0, 0, 0, 0, 0}, 8);
-        for (int v = 0; v < 3; v++) { // everywhere in the middle of texel 0, or of texel 1
-            scene->uvs[0][v][0] = metal ? 0.25f : 0.75f;
-        }
-        scene->materials[0].metallic = 1.0f;
-        scene->materials[0].metallic_texture.image = 0;
-        test_log_clear();
-        ASSERT_OK(context, alpi_scene_finish(scene));
-        assert_int_equal(test_log_has("metal"), metal);
+        alpi_scene_warn_of_metal(scene);
+        assert_int_equal(test_log_has("metal"), cases[i].told);
         alp_scene_destroy(scene);
     }
 }

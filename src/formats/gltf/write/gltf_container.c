@@ -119,7 +119,7 @@ static alp_result embed_image(alpi_gltf_patcher *p, size_t index)
     }
     uint8_t *bytes = NULL;
     size_t size = 0;
-    alp_result result = alpi_gltf_uri_read(p->document, uri, owner, &bytes, &size);
+    alp_result result = alpi_gltf_image_read(p->document, uri, owner, &bytes, &size);
     if (result == ALP_ERROR_OUT_OF_MEMORY) {
         return result;
     }

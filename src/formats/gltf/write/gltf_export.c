@@ -125,10 +125,22 @@ static alp_result add_indices(alpi_gltf_exporter *e, const alpi_surface *surface
     return ALP_OK;
 }
 
-/// Sets that the surface has, and those its material reads (zeros in the scene's array).
-static uint32_t needed_uv_sets(const alp_scene *scene, const alpi_surface *surface)
+/// Whether a set has the coordinates of the one before, as an OBJ's second set has.
+static bool repeats_set(const alp_scene *scene, const alpi_surface *surface, uint32_t set)
 {
+    const uint32_t first = surface->first_vertex;
+    return set > 0 && memcmp(scene->uvs[set - 1][first], scene->uvs[set][first],
+                             surface->vertex_count * sizeof *scene->uvs[set]) == 0;
+}
+
+/// Sets that the surface has, and those its material reads (zeros in the scene's array).
+static uint32_t needed_uv_sets(const alpi_gltf_exporter *e, const alpi_surface *surface)
+{
+    const alp_scene *scene = e->scene;
     uint32_t sets = surface->uv_sets;
+    if (sets == 2 && !e->keeps_sets && scene->uvs[0] != NULL && scene->uvs[1] != NULL) {
+        sets -= repeats_set(scene, surface, 1);
+    }
     if (surface->material != ALPI_NONE) {
         const alpi_material *m = &scene->materials[surface->material];
         const alpi_texture textures[] = {
@@ -159,9 +171,12 @@ static alp_result add_mesh(alpi_gltf_exporter *e, const alpi_surface *surface)
                      add_floats(e, scene->positions[first], count, 3, true));
     alpi_bytes_print(&attributes, "\"NORMAL\":%zu",
                      add_floats(e, scene->normals[first], count, 3, false));
-    for (uint32_t set = 0; set < needed_uv_sets(scene, surface); set++) {
-        alpi_bytes_print(&attributes, ",\"TEXCOORD_%u\":%zu", set,
-                         add_floats(e, scene->uvs[set][first], count, 2, false));
+    size_t coordinates = 0;
+    for (uint32_t set = 0; set < needed_uv_sets(e, surface); set++) {
+        if (!repeats_set(scene, surface, set)) {
+            coordinates = add_floats(e, scene->uvs[set][first], count, 2, false);
+        }
+        alpi_bytes_print(&attributes, ",\"TEXCOORD_%u\":%zu", set, coordinates);
     }
     if (scene->colors != NULL) {
         alpi_bytes_print(&attributes, ",\"COLOR_0\":%zu",
@@ -362,10 +377,14 @@ static alp_result assemble(alpi_gltf_exporter *e, alpi_bytes *json, alpi_bytes *
     return failed ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
 }
 
-alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size)
+alp_result alpi_gltf_export_scene(const alp_scene *scene, bool keeps_sets, uint8_t **bytes,
+                                  size_t *size)
 {
     alp_context *context = scene->context;
-    alpi_gltf_exporter e = {.context = context, .scene = scene, .bin = alpi_bytes_create(context)};
+    alpi_gltf_exporter e = {.context = context,
+                            .scene = scene,
+                            .bin = alpi_bytes_create(context),
+                            .keeps_sets = keeps_sets};
     for (int i = 0; i < ALPI_LIST_COUNT; i++) {
         e.lists[i] = alpi_bytes_create(context);
     }

@@ -27,9 +27,10 @@ typedef struct alpi_gltf_exporter {
     alpi_bytes lists[ALPI_LIST_COUNT];
     size_t counts[ALPI_LIST_COUNT];
     alpi_bytes bin;
-    size_t *images; // [image_count] in the file, SIZE_MAX = left out
-    size_t *gloss;  // [material_count] image of roughness and metalness, SIZE_MAX = none
-    bool *normals;  // [image_count] holds normals
+    size_t *images;  // [image_count] in the file, SIZE_MAX = left out
+    size_t *gloss;   // [material_count] image of roughness and metalness, SIZE_MAX = none
+    bool *normals;   // [image_count] holds normals
+    bool keeps_sets; // writes a second set that is equal to the first
     bool has_emissive_strength, has_transmission, has_transform, has_ior, has_specular;
 } alpi_gltf_exporter;
 

@@ -23,7 +23,7 @@ static alp_result is_referenced(const alpi_gltf_document *document, const char *
         if (uri == NULL) {
             continue;
         }
-        if (alpi_gltf_uri_path(document, uri, kind, &path) == ALP_ERROR_OUT_OF_MEMORY) {
+        if (alpi_gltf_reference_path(document, kind, uri, &path) == ALP_ERROR_OUT_OF_MEMORY) {
             return ALP_ERROR_OUT_OF_MEMORY;
         }
         if (path != NULL) {

@@ -67,7 +67,7 @@ static alp_result add_copies(alpi_output_files *files, const alpi_gltf_document 
             (fallbacks && document->buffers[i].bytes != NULL)) {
             continue;
         }
-        alp_result result = alpi_gltf_uri_path(document, uri, kind, &source);
+        alp_result result = alpi_gltf_reference_path(document, kind, uri, &source);
         if (result == ALP_OK && source != NULL && !is_outside(files, document, source, uri)) {
             result = add_copy(files, document, source, folder);
         } else if (result != ALP_ERROR_OUT_OF_MEMORY) {
@@ -340,7 +340,7 @@ alp_result alpi_gltf_add_patched(const alp_scene *scene, const alpi_mesh_patch *
     uint8_t *bytes = NULL;
     size_t size = 0;
     alpi_gltf_document *exported = NULL;
-    ALP_TRY(alpi_gltf_export_scene(scene, &bytes, &size));
+    ALP_TRY(alpi_gltf_export_scene(scene, patch->corner_uvs == NULL, &bytes, &size));
     ALP_TRY(alpi_gltf_document_parse(scene->context, scene->name, bytes, size, &exported));
     alp_result result = write_document(scene, exported, patch, path, files);
     alpi_gltf_document_destroy(exported);

@@ -22,6 +22,8 @@ alp_result alpi_gltf_check_outputs(const alp_scene *scene, const alpi_output_ima
 
 /// A scene without a document as GLB bytes: node i, mesh i, primitive 0 = surface i; materials and
 /// cameras too (png.c encodes images). *bytes is released by the caller.
-alp_result alpi_gltf_export_scene(const alp_scene *scene, uint8_t **bytes, size_t *size);
+/// @param keeps_sets a second set equal to the first is written too, for a map that reads it
+alp_result alpi_gltf_export_scene(const alp_scene *scene, bool keeps_sets, uint8_t **bytes,
+                                  size_t *size);
 
 #endif

@@ -29,12 +29,12 @@ static void check(alp_context *context, const char *folder, const wanted *cases,
     }
 }
 
-/// "FOLDER/" with a.png, Wood.PNG, my wood.png, sub/b.png and Sub2/C.png.
+/// "FOLDER/" with a.png, Wood.PNG, my wood.png, hölzern.png, sub/b.png and Sub2/C.png.
 static const char *make_folder(void)
 {
     static char folder[512];
-    static const char *const files[] = {"a.png", "Wood.PNG", "my wood.png", "sub/b.png",
-                                        "Sub2/C.png"};
+    static const char *const files[] = {"a.png",     "Wood.PNG",   "my wood.png",
+                                        "sub/b.png", "Sub2/C.png", "h\xc3\xb6lzern.png"};
     const char *made = test_folder();
     mkdir(test_path(made, "sub"), 0777);
     mkdir(test_path(made, "Sub2"), 0777);
@@ -65,6 +65,9 @@ TEST_WITH_CONTEXT(names_of_people, 1)
         {"", "file:///D:/x/my%20wood.png", "my wood.png", ALPI_FOUND_BY_NAME},
         {"", "../textures/a.png", "a.png", ALPI_FOUND_BY_NAME},
         {"", "textures/a.png", "a.png", ALPI_FOUND_BY_NAME},
+        // in Latin-1
+        {"", "h\xf6lzern.png", "h\xc3\xb6lzern.png", ALPI_FOUND_AS_NAMED},
+        {"", "D:\\h\xf6lzern.png", "h\xc3\xb6lzern.png", ALPI_FOUND_BY_NAME},
         // not there
         {"", "gone.png", "gone.png", ALPI_FOUND_NOTHING},
         {"", "sub", "sub", ALPI_FOUND_NOTHING}, // a folder
@@ -74,6 +77,41 @@ TEST_WITH_CONTEXT(names_of_people, 1)
         {"", "", NULL, ALPI_FOUND_NOTHING},
     };
     check(context, make_folder(), cases, sizeof cases / sizeof *cases);
+}
+
+/// Escapes are decoded before; a backslash that was one is part of the name where a file has it.
+TEST_WITH_CONTEXT(uris, 1)
+{
+    static const struct {
+        const char *uri, *path; // from the folder; NULL: outside
+        alpi_found found;
+    } cases[] = {{"a.png", "a.png", ALPI_FOUND_AS_NAMED},
+                 {"100%25.png", "100%25.png", ALPI_FOUND_AS_NAMED}, // once
+                 {"back\\slash.png", "back\\slash.png", ALPI_FOUND_AS_NAMED},
+                 {"wood.png", "Wood.PNG", ALPI_FOUND_OTHER_CASE},
+                 {"file:///D:/x/A.png", "a.png", ALPI_FOUND_BY_NAME},
+                 {"http://localhost/sub/b.png", "sub/b.png", ALPI_FOUND_BY_NAME},
+                 {"gone.png", "gone.png", ALPI_FOUND_NOTHING},
+                 {"http://localhost/gone.png", NULL, ALPI_FOUND_NOTHING},
+                 {"file:///etc/passwd", NULL, ALPI_FOUND_NOTHING},
+                 {"/etc/passwd", NULL, ALPI_FOUND_NOTHING},
+                 {"../gone.png", NULL, ALPI_FOUND_NOTHING}};
+    const char *folder = make_folder();
+    test_write_text(test_path(folder, "100%25.png"), "x");
+    test_write_text(test_path(folder, "100%.png"), "x");
+    test_write_text(test_path(folder, "back\\slash.png"), "x");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *path = NULL, expected[600];
+        alpi_found found;
+        ASSERT_OK(context, alpi_find_uri(context, folder, cases[i].uri, &path, &found));
+        assert_int_equal(found, cases[i].found);
+        assert_int_equal(path == NULL, cases[i].path == NULL);
+        if (path != NULL) {
+            snprintf(expected, sizeof expected, "%s%s", folder, cases[i].path);
+            assert_string_equal(path, expected);
+        }
+        alpi_release(context, path);
+    }
 }
 
 TEST(outside_where_it_is_allowed)
@@ -105,6 +143,10 @@ TEST(failing_allocations)
         alpi_found found;
         alp_context *context = test_context_failing(&left);
         left = allowed;
+        result = alpi_find_uri(context, folder, "C:/x/sub/H\xd6LZERN%2epng", &path, &found);
+        assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && path == NULL));
+        alpi_release(context, path);
+        left = result == ALP_OK ? allowed : 0;
         result = alpi_find_file(context, folder, "", "C:/x/sub/MY%20WOOD.png", &path, &found);
         assert_true(result == ALP_OK || (result == ALP_ERROR_OUT_OF_MEMORY && path == NULL));
         alpi_release(context, path);

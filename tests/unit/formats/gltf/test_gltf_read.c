@@ -323,7 +323,7 @@ TEST_WITH_CONTEXT(transmission, 1)
     assert_int_equal(scene->materials[1].transmission_texture.image, ALPI_NONE);
     uint8_t *bytes = NULL;
     size_t size = 0;
-    ASSERT_OK(context, alpi_gltf_export_scene(scene, &bytes, &size));
+    ASSERT_OK(context, alpi_gltf_export_scene(scene, true, &bytes, &size));
     alp_scene_destroy(scene);
     const char *json = (const char *)bytes + 20; // it ends in a BIN chunk's zeros
     assert_non_null(strstr(json, "\"extensionsUsed\":[\"KHR_materials_transmission\"]"));

@@ -148,8 +148,12 @@ TEST_WITH_CONTEXT(losses, 1)
     const char *folder = test_folder();
     alp_scene *obj = read_with(context, folder,
                                "newmtl a\nmap_Bump -bm 0.25 n.png\nmap_Ns r.png\nTf 1 1 1\n"
-                               "newmtl b\nbump h.png\nTf 1 1 1\nillum 7\nKa 1 1 1\n",
-                               "mtllib a.mtl\nusemtl a\n" MESH FACE "usemtl b\n" FACE);
+                               "newmtl b\nbump h.png\nTf 1 1 1\nillum 7\nKs 1 1 1\nKa 1 1 1\n"
+                               "newmtl dull\nillum 7\nKs 0 0 0\nnewmtl glossy\nillum 2\nKs 1 1 1\n"
+                               "newmtl metal\nillum 3\nKs 1 1 1\nPm 1\n"
+                               "newmtl unused\nillum 7\nKs 1 1 1\ndisp h.png\n",
+                               "mtllib a.mtl\nusemtl a\n" MESH FACE "usemtl b\n" FACE
+                               "usemtl dull\n" FACE "usemtl glossy\n" FACE "usemtl metal\n" FACE);
     alp_scene *gltf = through(context, obj, folder, "b.glb");
     const alpi_material *a = &gltf->materials[0], *b = &gltf->materials[1];
     ASSERT_NEAR(texel(context, gltf, &a->normal_texture, 2), 1.0, 1e-6);
@@ -163,7 +167,83 @@ TEST_WITH_CONTEXT(losses, 1)
         assert_null(strstr(found + 1, told[i]));
     }
     assert_non_null(strstr(test_log_text(), "2 statements"));
+    assert_non_null(strstr(test_log_text(), "illum: glTF has no place for it: 1 statements"));
     assert_null(strstr(test_log_text(), "mtl-lost Ka"));
+    assert_null(strstr(test_log_text(), "mtl-lost disp"));
     alp_scene_destroy(gltf);
     alp_scene_destroy(obj);
+}
+
+/// Names in Latin-1 are UTF-8 in the scene and in glTF. An OBJ keeps its bytes, and a picture may
+/// have the name in either.
+TEST_WITH_CONTEXT(names_in_latin_1, 1)
+{
+    static const char *const pictures[] = {"gr\xfcn.png", "gr\xc3\xbcn.png"};
+    for (int i = 0; i < 2; i++) {
+        static const uint8_t green[3] = {0, 255, 0};
+        const char *folder = test_folder();
+        write_picture(context, test_path(folder, pictures[i]), green);
+        alp_scene *obj = read_with(context, folder,
+                                   "newmtl gr\xfcn\nKd 1 1 1\nmap_Kd gr\xfcn.png\n"
+                                   "newmtl gr\xfcn\n",
+                                   "mtllib a.mtl\no D\xe4"
+                                   "cher\nusemtl gr\xfcn\n" MESH FACE);
+        assert_string_equal(obj->materials[0].name, "gr\xc3\xbcn");
+        assert_string_equal(obj->surfaces[0].name, "D\xc3\xa4"
+                                                   "cher");
+        assert_false(test_log_has("image"));
+        assert_non_null(strstr(test_log_text(), "material gr\xc3\xbcn: "));
+        alp_scene *gltf = through(context, obj, folder, "b.glb");
+        assert_string_equal(gltf->materials[0].name, "gr\xc3\xbcn");
+        ASSERT_NEAR(texel(context, gltf, &gltf->materials[0].base_color_texture, 1), 1.0, 1e-6);
+        alp_scene *back = through(context, obj, folder, "c.obj");
+        ASSERT_NEAR(texel(context, back, &back->materials[0].base_color_texture, 1), 1.0, 1e-6);
+        size_t size;
+        uint8_t *text = test_read_file(test_path(folder, "c.obj"), &size);
+        assert_non_null(strstr((const char *)text, "usemtl gr\xfcn\n"));
+        free(text);
+        alp_scene_destroy(obj);
+        alp_scene_destroy(gltf);
+        alp_scene_destroy(back);
+    }
+}
+
+static size_t count_of(const char *text, const char *word)
+{
+    size_t count = 0;
+    for (const char *at = text; (at = strstr(at, word)) != NULL; at++) {
+        count++;
+    }
+    return count;
+}
+
+/// The coordinates of an OBJ are both sets of its scene: with new charts glTF has them once, and
+/// with kept ones its two sets have one accessor.
+TEST_WITH_CONTEXT(coordinates_are_written_once, 1)
+{
+    static const float charts[1][3][2] = {{{0.1f, 0.1f}, {0.9f, 0.1f}, {0.1f, 0.9f}}};
+    static const uint8_t white[3] = {255, 255, 255};
+    for (int keeps = 0; keeps < 2; keeps++) {
+        const char *folder = test_folder();
+        alp_scene *obj = read_with(context, folder, "newmtl a\nmap_Kd h.png\n",
+                                   "mtllib a.mtl\nusemtl a\n" MESH FACE);
+        size_t size;
+        write_picture(context, test_path(folder, "ao.png"), white);
+        uint8_t *png = test_read_file(test_path(folder, "ao.png"), &size);
+        const uint8_t *const pngs[] = {png};
+        const alpi_mesh_patch patch = {.page_count = 1,
+                                       .corner_uvs = keeps ? NULL : charts,
+                                       .kept_uv_set = 1,
+                                       .page_pngs = pngs,
+                                       .page_png_sizes = &size,
+                                       .occlusion_strength = 1.0f};
+        ASSERT_OK(context,
+                  alpi_scene_write_patched(obj, &patch, test_path(folder, "b.gltf"), false));
+        uint8_t *text = test_read_file(test_path(folder, "b.gltf"), &size);
+        assert_int_equal(count_of((const char *)text, "\"TEXCOORD_"), 2);
+        assert_int_equal(count_of((const char *)text, "\"VEC2\""), keeps ? 1 : 2);
+        free(text);
+        free(png);
+        alp_scene_destroy(obj);
+    }
 }

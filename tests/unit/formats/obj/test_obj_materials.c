@@ -224,22 +224,37 @@ TEST_WITH_CONTEXT(occlusion, 1)
     alp_scene_destroy(scene);
 }
 
-TEST_WITH_CONTEXT(refused, 1)
+/// A bad number costs its statement: the material is the one without it, and the rest is read.
+TEST_WITH_CONTEXT(bad_numbers, 1)
 {
     static const struct {
-        const char *library, *words;
-    } cases[] = {{"newmtl a\nKd 1 nan 1\n", "a.mtl: line 2: Kd: \"nan\" is no"},
-                 {"\n\nnewmtl a\nd\n", "a.mtl: line 4: d has too few numbers"},
-                 {"newmtl a\nKe 1 2 x\n", "a.mtl: line 2: Ke: \"x\" is no"},
-                 {"newmtl a\nmap_Kd -s 1..2 a.png\n", "a.mtl: line 2: -s: \"1..2\" is no"}};
+        const char *statement, *words;
+    } cases[] = {{"Kd 1 nan 1", "line 2: Kd: \"nan\" is no"},
+                 {"Kd red", "line 2: Kd: \"red\" is no"},
+                 {"d", "line 2: d has too few numbers"},
+                 {"d abc", "line 2: d: \"abc\" is no"},
+                 {"Tr 1e39", "line 2: Tr: \"1e39\" is beyond"},
+                 {"Ke 1 2 x", "line 2: Ke: \"x\" is no"},
+                 {"Ns x", "line 2: Ns: \"x\" is no"},
+                 {"Pr nan", "line 2: Pr: \"nan\" is no"},
+                 {"illum two", "line 2: illum: \"two\" is no"},
+                 {"map_Kd -s 1..2 wood.png", "line 2: -s: \"1..2\" is no"}};
     const char *folder = test_folder();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        alp_scene *scene = NULL;
-        test_write_text(test_path(folder, "a.mtl"), cases[i].library);
-        assert_int_equal(test_obj_read(context, folder, "mtllib a.mtl\n" TRIANGLE, &scene),
-                         ALP_ERROR_INVALID_DATA);
-        assert_null(scene);
-        test_message_has(context, cases[i].words);
+        char library[256];
+        snprintf(library, sizeof library, "newmtl a\n%s\nPm 0.25\nKd\n", cases[i].statement);
+        test_log_clear();
+        alp_scene *scene = read_with(context, folder, library, "mtllib a.mtl\nusemtl a\n" TRIANGLE);
+        const alpi_material *m = material_of(scene, 0);
+        check_color(m->base_color, 0.5, 0.5, 0.5);
+        check_color(m->emission, 0, 0, 0);
+        ASSERT_NEAR(m->base_color[3], 1.0, 0.0);
+        ASSERT_NEAR(m->shine.roughness, 1.0, 0.0);
+        ASSERT_NEAR(m->metallic, 0.25, 0.0);
+        assert_int_equal(m->alpha_mode, ALPI_ALPHA_OPAQUE);
+        assert_non_null(strstr(test_log_text(), cases[i].words));
+        assert_non_null(strstr(test_log_text(), "such statements are left out: 2"));
+        alp_scene_destroy(scene);
     }
     // before the first newmtl, and values out of range
     alp_scene *scene = read_with(context, folder, "Kd 1 nan 1\nnewmtl a\nKd 7 -1 1e38\nd 2\n",

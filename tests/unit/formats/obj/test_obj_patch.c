@@ -311,3 +311,52 @@ TEST(failing_allocations)
     assert_in_range(allowed, 30, 10000);
     finish(&b);
 }
+
+/// New charts make comments of textures. The warning says so once a material, and not of a picture
+/// that was missing before.
+TEST(commented_textures)
+{
+    static const struct {
+        const char *picture;
+        bool told;
+    } cases[] = {{"wood.png", true}, {"gone.png", false}, {"C:\\x\\gone.png", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char library[256], wanted[256];
+        bake b;
+        snprintf(library, sizeof library, "newmtl steel\nKd 1 1 1\nmap_Kd %s\nmap_Ns %s\n",
+                 cases[i].picture, cases[i].picture);
+        start(&b, MESH "usemtl steel\nf 1/1 2/2 3/3 4/4\n", library);
+        test_log_clear();
+        check_texts(&b, NULL, NULL);
+        const char *found = strstr(test_log_text(), "texture-lost steel: its textures need the vt");
+        assert_int_equal(found != NULL, cases[i].told);
+        assert_true(found == NULL || strstr(found + 1, "texture-lost") == NULL);
+        assert_true(found == NULL || strstr(found, "write .glb") != NULL);
+        size_t size;
+        char *text = (char *)test_read_file(test_path(b.folder, "out/out.mtl"), &size);
+        snprintf(wanted, sizeof wanted, "# map_Kd %s\n# map_Ns %s\n", cases[i].picture,
+                 cases[i].picture);
+        assert_non_null(strstr(text, wanted));
+        free(text);
+        finish(&b);
+    }
+}
+
+/// A bad number costs a texture its meaning; the statement stays.
+TEST(bad_options_stay)
+{
+    bake b;
+    start(&b, MESH "usemtl steel\nf 1/1 2/2 3/3 4/4\n", "newmtl steel\nmap_Kd -s 1..2 wood.png\n");
+    for (int keeps = 0; keeps < 2; keeps++) {
+        const char *name = keeps ? "out/keep.obj" : "out/charts.obj";
+        b.patch.corner_uvs = keeps ? NULL : (const float(*)[3][2])b.uvs;
+        ASSERT_OK(b.context,
+                  alpi_scene_write_patched(b.scene, &b.patch, test_path(b.folder, name), false));
+        size_t size;
+        char *text = (char *)test_read_file(
+            test_path(b.folder, keeps ? "out/keep.mtl" : "out/charts.mtl"), &size);
+        assert_non_null(strstr(text, "map_Kd -s 1..2 wood.png\n"));
+        free(text);
+    }
+    finish(&b);
+}

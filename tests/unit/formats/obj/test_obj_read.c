@@ -166,7 +166,8 @@ TEST_WITH_CONTEXT(left_out, 1)
     assert_int_equal(scene->triangle_count, 1);
     assert_non_null(strstr(test_log_text(), "2 statements of lines and points"));
     assert_non_null(strstr(test_log_text(), "3 faces of less than three corners"));
-    assert_non_null(strstr(test_log_text(), "2 statements left out, such as \"curv\""));
+    assert_non_null(
+        strstr(test_log_text(), "2 statements have no part in the bake, such as \"curv\""));
     assert_true(test_log_has("unit"));
     alp_scene_destroy(scene);
     test_log_clear(); // only points
@@ -281,7 +282,6 @@ TEST_WITH_CONTEXT(refused, 1)
         {"v 1.#IND 2 3\n", "line 1: v: \"1.#IND\" is no"},
         {SQUARE "vt\n", "line 5: vt has too few"},
         {SQUARE "vt 0 inf\n", "line 5: vt: \"inf\""},
-        {SQUARE "vn 0 1\n", "line 5: vn has too few"},
         {SQUARE "f 1 2 5\n", "line 5: f: vertex 5 of 4"},
         {SQUARE "f 0 1 2\n", "line 5: f: \"0\" is no corner"},
         {SQUARE "f 1 2 -5\n", "line 5: f: \"-5\" is no corner"},
@@ -302,6 +302,27 @@ TEST_WITH_CONTEXT(refused, 1)
         assert_null(scene);
         test_message_has(context, cases[i].words);
         test_message_has(context, "test.obj: ");
+    }
+}
+
+/// A bad normal costs itself: its corners have the normal of their triangle, others keep theirs.
+TEST_WITH_CONTEXT(bad_normals, 1)
+{
+    static const char *const bad[] = {"a b c", "nan 0 0", "0 1", ""};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[256];
+        snprintf(text, sizeof text, SQUARE "vn %s\nvn 1 0 0\nf 1//1 2//2 3//2\n", bad[i]);
+        test_log_clear();
+        alp_scene *scene = test_obj_scene(context, text);
+        assert_int_equal(scene->usable_count, 1);
+        const float *own = scene->normals[scene->triangles[0][0]];
+        vec3 c[3];
+        alpi_triangle_corners(scene, 0, c);
+        vec3 flat = vec3_triangle_normal(c[0], c[1], c[2], (vec3){0.0f, 0.0f, 0.0f});
+        ASSERT_NEAR(vec3_dot(vec3_load(own), flat), 1.0, 1e-6);
+        ASSERT_NEAR(scene->normals[scene->triangles[0][1]][0], 1.0, 0.0);
+        assert_non_null(strstr(test_log_text(), "bad-normals test.obj: line 5: vn"));
+        alp_scene_destroy(scene);
     }
 }
 

@@ -137,3 +137,19 @@ TEST_WITH_CONTEXT(files_of_others, 1)
     alp_scene_destroy(gltf);
     alp_scene_destroy(obj);
 }
+
+/// Messages of coordinates name them as an OBJ does.
+TEST_WITH_CONTEXT(words_of_the_file, 1)
+{
+    alp_scene *scene =
+        test_obj_scene(context, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\n"
+                                "vt 0 1\nf 1/1 2/2 3/3\nf 1/1 4/2 2/3\n");
+    alp_atlas_options options = alp_atlas_options_default();
+    options.mode = ALP_ATLAS_KEEP;
+    options.size = 64;
+    alp_atlas *atlas = NULL;
+    assert_int_equal(alp_atlas_create(scene, &options, &atlas), ALP_ERROR_INVALID_DATA);
+    test_message_has(context, "the set of texture coordinates (vt) cannot hold a bake");
+    assert_null(strstr(alp_context_message(context), "TEXCOORD"));
+    alp_scene_destroy(scene);
+}

@@ -251,6 +251,22 @@ TEST(materials_and_pages)
     finish(&b);
 }
 
+/// The reader has warned of pictures that are missing: the writer does not.
+TEST(missing_pictures_are_no_loss)
+{
+    bake b;
+    start_with_library(&b);
+    b.scene->read_image = NULL;
+    for (uint32_t i = 0; i < b.scene->image_count; i++) {
+        alp_image_destroy(b.scene->images[i]);
+        b.scene->images[i] = NULL;
+    }
+    test_log_clear();
+    alp_scene_destroy(write_and_read(&b));
+    assert_false(test_log_has("texture-lost"));
+    finish(&b);
+}
+
 /// With the scene's own coordinates its textures stay, and map_Kd is theirs.
 TEST(kept_coordinates)
 {
