@@ -38,6 +38,7 @@ ROOMS = {
 # its headers: they put the sub-rooms together. Where "." stands last, its headers collect those of
 # the sub-rooms for other rooms.
 SUB_ROOMS = {
+    "base": {".": [], "tiles": ["."]},
     "formats": {
         "text": [],
         "polygon": [],
@@ -77,6 +78,7 @@ SUB_ROOMS = {
 # public header: the lowest room that may include it, which stands for it in the law
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
+    "checkpoint": "base", "ranks": "base",
     "sh": "sh", "shared_constants": "base", "display": "film", "film": "film", "geometry": "scene",
     "light": "scene", "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
     "field": "fields", "probes": "fields", "ambience": "fields", "lpv": "fields", "render": "render",
@@ -107,7 +109,7 @@ THIRD_PARTY = {
 SYSTEM = set(
     "assert ctype dlfcn errno fcntl float inttypes limits locale math setjmp signal stdalign stdarg "
     "stdatomic stdbool stddef stdint stdio stdlib string strings time unistd dirent getopt sched "
-    "sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/wait termios".split())
+    "sys/file sys/ioctl sys/mman sys/resource sys/stat sys/time sys/types sys/wait termios".split())
 SYSTEM_OF_PUBLIC_HEADERS = {"stdbool", "stddef", "stdint"}
 
 INCLUDE = re.compile(r"\s*#\s*include\b\s*(.*)")

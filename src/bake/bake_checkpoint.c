@@ -31,7 +31,7 @@ static alp_result check_shard(const alpi_bake_job *job)
                          "bake: shard %u of %u; shards are counted from 1, and at most %d",
                          c->shard, c->shards, SHARD_LIMIT);
     }
-    if (o->sampling.error > 0.0f || o->light.error > 0.0f) {
+    if (o->sampling.error > 0.0f || (alpi_bake_wants_light(o) && o->light.error > 0.0f)) {
         return alpi_fail(job->context, INVALID,
                          "bake: shards cannot reach an error together (--error, --quality); take "
                          "fixed --ao-samples or --samples, or ranks (alpenglow-mpi)");

@@ -44,10 +44,13 @@ static alp_result add_uris(const alpi_gltf_document *d, const char *kind, const 
     for (size_t i = 0; i < count; i++) {
         const char *uri = alpi_gltf_text(alpi_gltf_item(d, kind, i), "uri");
         char *path = NULL;
-        if (uri == NULL || alpi_gltf_uri_path(d, uri, kind, &path) != ALP_OK || path == NULL) {
-            continue; // bytes in the text, or a place that is not read
+        const alp_result result = uri != NULL ? alpi_gltf_uri_path(d, uri, kind, &path) : ALP_OK;
+        if (result == ALP_ERROR_OUT_OF_MEMORY) {
+            return result;
         }
-        ALP_TRY(add_path(l, path));
+        if (path != NULL) { // NULL: bytes in the text, or a place that is not read
+            ALP_TRY(add_path(l, path));
+        }
     }
     return ALP_OK;
 }

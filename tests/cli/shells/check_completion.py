@@ -37,7 +37,7 @@ CASES = [
     ("alpenglow info --", "{options of info}"),
     ("alpenglow compare --", "{options of compare}"),
     ("alpenglow bake --max-r", ""),  # of another command
-    ("alpenglow bake --chec", ""),  # in the contract, not built
+    ("alpenglow probes --spl", ""),  # in the contract, not built
     ("alpenglow bake --atlas b", "blend"),
     ("alpenglow bake --ao-falloff ", "none linear smooth exp"),
     ("alpenglow bake --ao-falloff s", "smooth"),

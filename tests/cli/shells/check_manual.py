@@ -25,7 +25,7 @@ SHOW = {
 # An example that runs is an example; how fine it bakes is not what is tested.
 SMALL = {"bake": "--size 32 --ao-samples 4 -q -f", "render": "--resolution 32x18 --samples 1 -q -f",
          "ambience": "--fps 1 --budget 8 --time 2 --errors off -q -f", "bench": "--quick",
-         "lpv": "--grid 8 -q -f",
+         "lpv": "--grid 8 -q -f", "merge": "-q -f",
          "view": "--size 32 --texel-samples 4 --resolution 32x18 -q -f"}
 
 
@@ -107,6 +107,7 @@ def check_examples(command):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.dirname(command) + os.pathsep + os.environ["PATH"]
         script = 'PATH=$1; alpenglow bake builtin:cornell -o scene.glb --maps-dir maps --size 32 -q'
+        script += '; alpenglow bake builtin:cornell -o part.glb --size 32 -q --checkpoint work --shard 1/1'
         script += '; alpenglow render builtin:cornell --with albedo --resolution 8x4 -q -o sky.hdr'
         run(["bash", "-c", script, "bash", path], cwd=folder)
         for name, page in [*list(pages(command))[1:], next(pages(command))]:

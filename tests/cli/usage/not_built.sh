@@ -3,7 +3,7 @@
 . "$(dirname "$0")/helpers.bash"
 for option in --bounces --direct --gather --samples --units \
     --sky --sky-turn --sky-strength --sun --sun-size --lightmap-as \
-    --denoise --checkpoint --resume; do
+    --denoise --checkpoint; do
     try bake scene.glb -o out.glb $option
     try bake scene.glb -o out.glb $option=1
 done
