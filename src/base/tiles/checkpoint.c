@@ -306,29 +306,40 @@ static const char *find_setting(const char *settings, const char *name, size_t l
     return NULL;
 }
 
-/// Adds the settings of `ours` that `theirs` lacks or has with another value.
-static int add_differences(const char *ours, const char *theirs, bool swapped, char *text,
-                           size_t room)
+/// Part of a text.
+typedef struct words {
+    const char *text;
+    size_t length;
+} words;
+
+static void add_difference(words name, words was, words is, char *text, size_t room)
 {
-    int count = 0;
+    const size_t used = strlen(text);
+    if (used + 1 < room) {
+        snprintf(text + used, room - used, "%s%.*s was %.*s and is %.*s", used > 0 ? "; " : "",
+                 (int)name.length, name.text, (int)was.length, was.text, (int)is.length, is.text);
+    }
+}
+
+/// Adds the settings of `ours` that `theirs` lacks or has with another value.
+/// @param gone `ours` are those of the folder; settings with another value are left out
+static void add_differences(const char *ours, const char *theirs, bool gone, char *text,
+                            size_t room)
+{
+    const words none = {"none", 4};
     for (const char *line = ours; *line != '\0';) {
         const size_t size = strcspn(line, "\n"), length = strcspn(line, " \n");
-        size_t other = 0;
-        const char *value = find_setting(theirs, line, length, &other);
-        const size_t own = size > length ? size - length - 1 : 0;
-        const bool same = value != NULL && other == own &&
-                          strncmp(value, line + length + 1, own) == 0;
-        const size_t used = strlen(text);
-        if (!same && (!swapped || value == NULL) && used + 1 < room) {
-            snprintf(text + used, room - used, "%s%.*s was %.*s and is %.*s",
-                     used > 0 ? "; " : "", (int)length, line,
-                     value == NULL ? 4 : (int)other, value == NULL ? "none" : value,
-                     swapped ? 4 : (int)own, swapped ? "none" : line + length + 1);
-            count++;
+        const words own = {line + length + 1, size > length ? size - length - 1 : 0};
+        words other = {NULL, 0};
+        other.text = find_setting(theirs, line, length, &other.length);
+        if (other.text == NULL) {
+            add_difference((words){line, length}, gone ? own : none, gone ? none : own, text, room);
+        } else if (!gone && (other.length != own.length ||
+                             strncmp(other.text, own.text, own.length) != 0)) {
+            add_difference((words){line, length}, other, own, text, room);
         }
         line += size + (line[size] == '\n' ? 1 : 0);
     }
-    return count;
 }
 
 /// Refuses a folder that keeps another bake.

@@ -108,6 +108,10 @@ static alp_result read_log(alpi_tile_log *log, uint64_t key)
     if (fstat(log->file, &status) != 0) {
         return fail(log, "cannot read");
     }
+    if (!S_ISREG(status.st_mode)) {
+        return alpi_fail(log->context, ALP_ERROR_IO, "%s: is no file; take another folder",
+                         log->path);
+    }
     const uint64_t size = (uint64_t)status.st_size;
     const bool ours = size >= sizeof found && read_at(log->file, 0, &found, sizeof found) &&
                       memcmp(&found, &wanted, sizeof found) == 0;
@@ -131,7 +135,7 @@ static alp_result read_log(alpi_tile_log *log, uint64_t key)
 static alp_result open_file(alpi_tile_log *log)
 {
     const int flags = log->writes ? O_RDWR | O_CREAT : O_RDONLY;
-    log->file = open(log->path, flags | O_CLOEXEC, 0666);
+    log->file = open(log->path, flags | O_CLOEXEC | O_NONBLOCK, 0666);
     if (log->file < 0) {
         return fail(log, log->writes ? "cannot write" : "cannot read");
     }
