@@ -31,7 +31,7 @@ static alp_result check_shard(const alpi_bake_job *job)
                          "bake: shard %u of %u; shards are counted from 1, and at most %d",
                          c->shard, c->shards, SHARD_LIMIT);
     }
-    if (o->sampling.error > 0.0f || o->light.error > 0.0f) {
+    if (o->sampling.error > 0.0f || (alpi_bake_wants_light(o) && o->light.error > 0.0f)) {
         return alpi_fail(job->context, INVALID,
                          "bake: shards cannot reach an error together (--error, --quality); take "
                          "fixed --ao-samples or --samples, or ranks (alpenglow-mpi)");
@@ -246,7 +246,8 @@ alp_result alp_checkpoint_read(alp_context *context, const char *folder,
     if (result == ALP_OK && made->list.count == 0) {
         result = alpi_fail(context, ALP_ERROR_INVALID_DATA,
                            made->list.damaged > 0
-                               ? "%s: the checkpoint is damaged; remove the folder to begin anew"
+                               ? "%s: the state of the checkpoint is damaged; run the bake again, "
+                                 "which goes on from the tiles that can be read"
                                : "%s: there is no checkpoint; name the folder of a bake's "
                                  "--checkpoint",
                            folder);
