@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target: files of checkpoints. The first byte of an input picks what the others are: the text
-// of a state, a log, or packed tiles. Checksums are also put right, or no change would get past them.
+// of a state, a log, or packed tiles. Checksums are also put right, or no change would get past
+// them.
 #include "fuzz.h"
 
 #include "base/hash.h"
@@ -37,8 +38,9 @@ static void read_state(fuzz_run *run, const uint8_t *bytes, size_t size)
                                     &damaged)) {
         return;
     }
-    if (!(s.seconds >= 0.0) || (s.count > 0 && s.shard >= s.count) || strchr(s.phase, '\n') != NULL ||
-        strchr(s.stage, '\n') != NULL || strchr(s.restart, '\n') != NULL) {
+    if (!(s.seconds >= 0.0) || (s.count > 0 && s.shard >= s.count) ||
+        strchr(s.phase, '\n') != NULL || strchr(s.stage, '\n') != NULL ||
+        strchr(s.restart, '\n') != NULL) {
         fuzz_abort("a state that no process writes was read");
     }
     alpi_checkpoint_state_clear(run->context, &s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes those files of the first corpus that no editor makes: images of every kind that is read,
-// probes, checkpoints, and inputs of the accessors' target. (Texts, and the archives of texts, were written by
-// hand.)
+// probes, checkpoints, and inputs of the accessors' target. (Texts, and the archives of texts, were
+// written by hand.)
 //
 //   fuzz_seeds FOLDER
 #include "seeds.h"

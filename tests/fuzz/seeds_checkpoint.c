@@ -15,7 +15,8 @@
 enum { KEY = 7, CHECKSUM_LINE = 26 };
 
 /// Puts the first bytes of a file behind the letter of its kind.
-static void put_file(alp_context *context, const char *path, char kind, size_t cut, const char *name)
+static void put_file(alp_context *context, const char *path, char kind, size_t cut,
+                     const char *name)
 {
     uint8_t *bytes = NULL, *input = NULL;
     size_t size = 0;
@@ -60,9 +61,8 @@ static alpi_bytes pack(alp_context *context, uint32_t tiles)
 {
     static uint8_t small[100], large[298][12];
     _Atomic uint8_t states[13] = {0};
-    const alpi_tile_output outputs[] = {
-        {.data = small, .size = 1, .count = 100},
-        {.data = large, .size = 12, .count = 298, .each = 3}};
+    const alpi_tile_output outputs[] = {{.data = small, .size = 1, .count = 100},
+                                        {.data = large, .size = 12, .count = 298, .each = 3}};
     const alpi_tile_loop loop = {
         .name = "fuzz", .count = 100, .grain = 8, .outputs = outputs, .output_count = 2};
     alpi_bytes bytes = alpi_bytes_create(context);

@@ -97,8 +97,8 @@ static char *make_restart(const command_line *a)
     for (int i = 0; i < a->word_count; i++) {
         json_array_append_new(words, json_string(a->words[i])); // NULL, no UTF-8: left out
     }
-    const bool whole = json_array_size(words) == (size_t)a->word_count &&
-                       getcwd(folder, sizeof folder) != NULL;
+    const bool whole =
+        json_array_size(words) == (size_t)a->word_count && getcwd(folder, sizeof folder) != NULL;
     json_t *object = json_pack("{s:s, s:o}", "folder", whole ? folder : "", "words", words);
     char *text = whole && object != NULL ? json_dumps(object, JSON_COMPACT) : NULL;
     json_decref(object);
@@ -109,8 +109,8 @@ void restart_add(restart_words *words, const char *word)
 {
     if (words->count == words->capacity) {
         words->capacity = 2 * words->capacity + 8;
-        words->words = allocate_or_exit(words->words,
-                                        (size_t)words->capacity * sizeof *words->words);
+        words->words =
+            allocate_or_exit(words->words, (size_t)words->capacity * sizeof *words->words);
     }
     const size_t size = strlen(word) + 1;
     words->words[words->count] = allocate_or_exit(NULL, size);

@@ -63,8 +63,8 @@ static void collect(alpi_checkpoint *c)
         static const alpi_tile_head room = {0};
         const size_t start = c->pending.size;
         alpi_bytes_add(&c->pending, &room, sizeof room);
-        const uint32_t tiles = alpi_tile_pack(c->loop, c->states, 1u << ALPI_TILE_RAN, true,
-                                              &from, RECORD_BYTES, &c->pending);
+        const uint32_t tiles = alpi_tile_pack(c->loop, c->states, 1u << ALPI_TILE_RAN, true, &from,
+                                              RECORD_BYTES, &c->pending);
         if (tiles == 0) {
             c->pending.size = c->pending.failed ? 0 : start;
             break;
@@ -120,8 +120,7 @@ static void write_out(alpi_checkpoint *c, const char *phase)
     c->pending = alpi_bytes_create(c->context);
     const alpi_checkpoint_state state = state_of(c, phase, stage);
     pthread_mutex_unlock(&c->lock);
-    const bool logged =
-        bytes.size == 0 || alpi_tile_log_append(&c->own, bytes.bytes, bytes.size);
+    const bool logged = bytes.size == 0 || alpi_tile_log_append(&c->own, bytes.bytes, bytes.size);
     int why = logged ? 0 : errno;
     if (logged && !alpi_checkpoint_state_write(c->context, c->state_path, &state)) {
         why = errno;
@@ -334,8 +333,8 @@ static void add_differences(const char *ours, const char *theirs, bool gone, cha
         other.text = find_setting(theirs, line, length, &other.length);
         if (other.text == NULL) {
             add_difference((words){line, length}, gone ? own : none, gone ? none : own, text, room);
-        } else if (!gone && (other.length != own.length ||
-                             strncmp(other.text, own.text, own.length) != 0)) {
+        } else if (!gone &&
+                   (other.length != own.length || strncmp(other.text, own.text, own.length) != 0)) {
             add_difference((words){line, length}, other, own, text, room);
         }
         line += size + (line[size] == '\n' ? 1 : 0);
@@ -446,8 +445,7 @@ static void note_resumed(alpi_checkpoint *c, const alpi_checkpoint_list *list)
                   "before it");
     }
     if (c->resumes && !c->options.merging) {
-        alpi_note(c->context, "resumed", c->options.folder,
-                  "the bake goes on from its checkpoint");
+        alpi_note(c->context, "resumed", c->options.folder, "the bake goes on from its checkpoint");
     }
 }
 
@@ -472,8 +470,8 @@ static alp_result open_files(alpi_checkpoint *c)
 static alp_result copy_options(alpi_checkpoint *c, const alpi_checkpoint_options *o)
 {
     c->options = *o;
-    const char **const copies[TEXTS] = {&c->options.folder, &c->options.name,
-                                        &c->options.settings, &c->options.restart};
+    const char **const copies[TEXTS] = {&c->options.folder, &c->options.name, &c->options.settings,
+                                        &c->options.restart};
     c->options.restart = o->restart != NULL ? o->restart : "";
     for (int i = 0; i < TEXTS; i++) {
         c->texts[i] = alpi_copy_string(c->context, *copies[i]);

@@ -48,8 +48,8 @@ static alpi_bytes make_text(alp_context *context, const alpi_checkpoint_state *s
     add_number(&b, "left", s->seconds_left);
     add_number(&b, "error", s->error);
     alpi_bytes_print(&b, "tiles %" PRIu64 "\n", s->tiles);
-    alpi_bytes_print(&b, "written %" PRIu64 "\nshard %" PRIu32 "\nshards %" PRIu32 "\n",
-                     s->written, s->shard, s->count);
+    alpi_bytes_print(&b, "written %" PRIu64 "\nshard %" PRIu32 "\nshards %" PRIu32 "\n", s->written,
+                     s->shard, s->count);
     alpi_bytes_print(&b, "restart %s\nsettings\n%s", s->restart != NULL ? s->restart : "",
                      s->settings);
     if (!b.failed) {

@@ -82,8 +82,7 @@ static alp_result list_records(alpi_tile_log *log, uint64_t size)
     alpi_tile_record r;
     while (size - log->end >= sizeof r.head &&
            read_at(log->file, log->end, &r.head, sizeof r.head) && r.head.magic == RECORD_MAGIC &&
-           r.head.own == checksum_of(&r.head) &&
-           r.head.size <= size - log->end - sizeof r.head) {
+           r.head.own == checksum_of(&r.head) && r.head.size <= size - log->end - sizeof r.head) {
         r.offset = log->end + sizeof r.head;
         ALP_TRY(alpi_grow(log->context, (void **)&log->records, &log->capacity, log->count + 1,
                           sizeof r));

@@ -179,8 +179,8 @@ alp_result checkpointed_run(checkpointed_bake *bake)
     if (bake->memory != NULL) {
         bake->memory->failing = -1;
     }
-    alp_context *context = bake->memory != NULL ? test_memory_context(bake->memory, 1)
-                                                : make_context(bake, &h);
+    alp_context *context =
+        bake->memory != NULL ? test_memory_context(bake->memory, 1) : make_context(bake, &h);
     alp_scene *scene = load(context, bake->kind->scene);
     alp_bake_options options = options_of(bake, lamps);
     alp_probe_options probes = alp_probe_options_default();

@@ -30,7 +30,7 @@ typedef struct checkpointed_bake {
     test_memory *memory; // of the bake, without that of loading; NULL: any
     // Out:
     uint32_t first, ranges; // ranges of loops before rays are traced; all
-    uint64_t files;  // fingerprint of all maps as files
+    uint64_t files;         // fingerprint of all maps as files
     alp_bake_report report;
     char message[512]; // of a failure
 } checkpointed_bake;

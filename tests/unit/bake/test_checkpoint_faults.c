@@ -95,10 +95,8 @@ TEST(records_of_other_loops)
 /// A limit on the size of files stands for the disk. Maps are smaller than it.
 TEST(a_full_disk)
 {
-    static const checkpointed_kind large = {.name = "large",
-                                            .maps = ALP_MAP_AO | ALP_MAP_LIGHT | ALP_MAP_SH,
-                                            .bounces = 2,
-                                            .size = 48};
+    static const checkpointed_kind large = {
+        .name = "large", .maps = ALP_MAP_AO | ALP_MAP_LIGHT | ALP_MAP_SH, .bounces = 2, .size = 48};
     uint32_t stop_after;
     size_t size;
     const uint64_t files = bake_whole(&large, &stop_after);
@@ -146,8 +144,8 @@ static void fail_each(const checkpointed_kind *kind, long step)
         assert_true(bake.files == files);
         harmless += result == ALP_OK ? 1 : 0;
     }
-    print_message("%s: some of %ld allocations failed, %ld of them harmless\n", kind->name,
-                  total, harmless);
+    print_message("%s: some of %ld allocations failed, %ld of them harmless\n", kind->name, total,
+                  harmless);
     assert_in_range(total, 200, 5000);
     assert_in_range(harmless, 0, 40); // the checkpoint warns and lacks tiles
 }

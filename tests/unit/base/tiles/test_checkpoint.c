@@ -22,11 +22,11 @@ static char folder[512];
 /// A process that runs LOOPS loops, and fails at an item.
 typedef struct process {
     alpi_checkpoint_options options;
-    uint32_t stop;        // item of all loops that fails; UINT32_MAX: none
-    double pause;         // seconds of an item
-    uint32_t cached;      // a loop that fills a cache; UINT32_MAX: none
-    uint32_t loop;        // that runs
-    atomic_uint ran;      // items
+    uint32_t stop;   // item of all loops that fails; UINT32_MAX: none
+    double pause;    // seconds of an item
+    uint32_t cached; // a loop that fills a cache; UINT32_MAX: none
+    uint32_t loop;   // that runs
+    atomic_uint ran; // items
     bool resumed;
     uint32_t values[LOOPS][ITEMS];
 } process;
@@ -94,7 +94,8 @@ static alp_result run(process *p)
     alpi_checkpoint_close(tiles->checkpoint, result == ALP_OK);
     *tiles = (alpi_tiles){.checkpoint = NULL};
     for (uint32_t i = 0; i < LOOPS * ITEMS && result == ALP_OK; i++) {
-        const bool others = o->shards > 0 && !o->merging && i % ITEMS / GRAIN % o->shards != o->shard;
+        const bool others =
+            o->shards > 0 && !o->merging && i % ITEMS / GRAIN % o->shards != o->shard;
         const uint32_t expected = 1000 * (i / ITEMS) + i % ITEMS;
         assert_int_equal(p->values[i / ITEMS][i % ITEMS], others ? 0 : expected);
     }
@@ -295,7 +296,7 @@ TEST(shards_and_their_merge)
         p.options.shard = i;
         p.options.shards = 3;
         ASSERT_OK(context, run(&p));
-        assert_false(p.resumed); // by the tiles of others
+        assert_false(p.resumed);                             // by the tiles of others
         assert_int_equal(p.ran, LOOPS * (i == 0 ? 36 : 32)); // 5 tiles, the last of 4 items; 4
     }
     process merge = start("merge", "a 1\n");

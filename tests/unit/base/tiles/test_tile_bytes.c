@@ -10,8 +10,8 @@
 
 enum { ITEMS = 23, GRAIN = 4, TILES = 6, EACH = 3, PLACES = 80, ELEMENTS = 68 };
 
-/// Outputs of a loop: one number an item, in order; and ELEMENTS triples of bytes, three an item and
-/// two of the last, in places of a list.
+/// Outputs of a loop: one number an item, in order; and ELEMENTS triples of bytes, three an item
+/// and two of the last, in places of a list.
 typedef struct outputs {
     uint32_t numbers[ITEMS];
     uint8_t listed[PLACES][3];
@@ -34,11 +34,8 @@ static void set_outputs(outputs *o, uint8_t fill)
     o->outputs[1] = (alpi_tile_output){.data = NULL, .size = 8, .count = ITEMS};
     o->outputs[2] = (alpi_tile_output){
         .data = o->listed, .size = 3, .list = o->list, .count = ELEMENTS, .each = EACH};
-    o->loop = (alpi_tile_loop){.name = "test",
-                               .count = ITEMS,
-                               .grain = GRAIN,
-                               .outputs = o->outputs,
-                               .output_count = 3};
+    o->loop = (alpi_tile_loop){
+        .name = "test", .count = ITEMS, .grain = GRAIN, .outputs = o->outputs, .output_count = 3};
 }
 
 /// Fills the outputs as the loop would.
@@ -139,9 +136,9 @@ TEST(records_of_few_bytes)
     uint32_t from = 0, records = 0;
     while (from < TILES) {
         alpi_bytes bytes = alpi_bytes_create(context);
-        assert_int_equal(alpi_tile_pack(&made.loop, made.states, 1u << ALPI_TILE_RAN, true, &from,
-                                        60, &bytes),
-                         2);
+        assert_int_equal(
+            alpi_tile_pack(&made.loop, made.states, 1u << ALPI_TILE_RAN, true, &from, 60, &bytes),
+            2);
         assert_true(alpi_tile_unpack(&taken.loop, bytes.bytes, bytes.size, taken.states));
         alpi_bytes_destroy(&bytes);
         records++;
@@ -259,9 +256,9 @@ TEST(without_memory_nothing_is_packed)
     left = 0;
     uint32_t from = 0;
     alpi_bytes bytes = alpi_bytes_create(poor);
-    assert_int_equal(alpi_tile_pack(&made.loop, made.states, 1u << ALPI_TILE_RAN, true, &from,
-                                    SIZE_MAX, &bytes),
-                     0);
+    assert_int_equal(
+        alpi_tile_pack(&made.loop, made.states, 1u << ALPI_TILE_RAN, true, &from, SIZE_MAX, &bytes),
+        0);
     assert_true(bytes.failed);
     for (uint32_t t = 0; t < TILES; t++) {
         assert_int_equal(made.states[t], ALPI_TILE_RAN);
