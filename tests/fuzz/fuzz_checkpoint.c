@@ -109,8 +109,7 @@ static void mend_log(uint8_t *bytes, size_t size)
         memcpy(&head, bytes + at, sizeof head);
         const size_t left = size - at - sizeof head;
         if (head.size <= left) {
-            head.checksum =
-                alpi_hash_bytes(ALPI_HASH_START, bytes + at + sizeof head, (size_t)head.size);
+            head.checksum = alpi_tile_checksum(bytes + at + sizeof head, (size_t)head.size);
         }
         head.own = alpi_hash_bytes(ALPI_HASH_START, &head, offsetof(alpi_tile_head, own));
         memcpy(bytes + at, &head, sizeof head);

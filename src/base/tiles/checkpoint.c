@@ -570,12 +570,17 @@ void alpi_checkpoint_close(alpi_checkpoint *checkpoint, bool complete)
         return;
     }
     stop_thread(c);
+    const bool is_done = complete && c->options.shards == 0;
+    if (is_done) { // nobody reads what was not written
+        alpi_bytes_destroy(&c->pending);
+        c->pending = alpi_bytes_create(c->context);
+    }
     if (!c->options.merging) {
         write_out(c, complete ? "complete" : "stopped");
         warn_of_trouble(c);
-        if (complete && c->options.shards == 0) {
-            remove_tiles(c);
-        }
+    }
+    if (is_done && !c->options.merging) {
+        remove_tiles(c);
     }
     release(c);
 }

@@ -222,6 +222,23 @@ TEST(wrong_runs_change_nothing)
     alpi_bytes_destroy(&bytes);
 }
 
+/// More tiles than there are, with the bytes of all of them.
+TEST(a_run_past_the_end_changes_nothing)
+{
+    static const uint32_t counts[] = {TILES + 1, 1000, 0xffffffff};
+    uint32_t from = 0;
+    set_outputs(&made, 0xee);
+    run_loop(&made);
+    set_outputs(&taken, 0xee);
+    alpi_bytes bytes = pack((1u << TILES) - 1, SIZE_MAX, &from, TILES); // one run
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        memcpy(bytes.bytes + 8, &counts[i], 4);
+        assert_false(unpack(bytes.bytes, bytes.size));
+        assert_outputs(&taken, 0);
+    }
+    alpi_bytes_destroy(&bytes);
+}
+
 TEST(shapes_differ)
 {
     set_outputs(&made, 0);

@@ -126,8 +126,11 @@ static void go_on_from(size_t good)
 {
     alpi_tile_log log;
     bool damaged = true;
+    struct stat about;
     ASSERT_OK(context, alpi_tile_log_open(context, path, KEY, true, &log));
     assert_int_equal(log.count, good);
+    assert_int_equal(stat(path, &about), 0);
+    assert_int_equal(about.st_size, log.end);
     assert_true(append(&log, (uint32_t)good, RECORDS));
     alpi_tile_log_close(&log);
     assert_int_equal(count_good(KEY, false, &damaged), RECORDS);
