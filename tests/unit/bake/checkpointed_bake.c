@@ -147,7 +147,7 @@ static alp_bake_options options_of(const checkpointed_bake *bake, alp_lamp *lamp
 // --- results -------------------------------------------------------------------------------------
 
 /// Of the names and bytes of all files of a folder.
-static uint64_t hash_files(const char *folder)
+static uint64_t hash_files(const char *folder, size_t *largest)
 {
     struct dirent **entries = NULL;
     uint64_t hash = ALPI_HASH_START;
@@ -162,6 +162,7 @@ static uint64_t hash_files(const char *folder)
             unsigned char *bytes = test_read_file(path, &size);
             hash = alpi_hash_bytes(hash, entries[i]->d_name, strlen(entries[i]->d_name));
             hash = alpi_hash_bytes(hash, bytes, size);
+            *largest = size > *largest ? size : *largest;
             free(bytes);
         }
         free(entries[i]);
@@ -199,7 +200,7 @@ alp_result checkpointed_run(checkpointed_bake *bake)
     const alp_result result = alp_bake(scene, &options, NULL, &bake->report);
     assert_int_equal(access(maps, F_OK) == 0, result == ALP_OK);
     if (result == ALP_OK) {
-        bake->files = hash_files(maps);
+        bake->files = hash_files(maps, &bake->largest);
     } else if (result != ALP_ERROR_CANCELLED) {
         snprintf(bake->message, sizeof bake->message, "%s", alp_context_message(context));
     }

@@ -31,6 +31,7 @@ typedef struct checkpointed_bake {
     // Out:
     uint32_t first, ranges; // ranges of loops before rays are traced; all
     uint64_t files;         // fingerprint of all maps as files
+    size_t largest;         // bytes of the largest of them
     alp_bake_report report;
     char message[512]; // of a failure
 } checkpointed_bake;
