@@ -89,3 +89,16 @@ TEST(stopped_bakes_have_the_same_bits)
         assert_true(read > .3);
     }
 }
+
+/// Between and within the passes, whose first fills the kept rays.
+TEST(stopped_in_each_pass)
+{
+    enum { STOPS = 24 };
+    static const checkpointed_kind passes = {.name = "passes", .maps = ALP_MAP_LIGHT, .bounces = 6};
+    checkpointed_bake whole = {.kind = &passes, .workers = 1};
+    assert_int_equal(checkpointed_run(&whole), ALP_OK);
+    for (uint32_t i = 0; i < STOPS; i++) {
+        (void)stop_and_go_on(&passes, whole.files,
+                             whole.first + (whole.ranges - whole.first) * (i + 1) / (STOPS + 1));
+    }
+}
