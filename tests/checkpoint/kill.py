@@ -7,7 +7,8 @@
 WORDS are those of `alpenglow bake` without outputs: a scene and options. A bake that was killed is
 run again and killed again, until one ends; then another begins. Checked are: work lost is at most
 the interval (or 5 s before the first write) and 2 s; the maps have the bytes of an undisturbed bake;
-folders hold no temporary file at the end. Exit status: 0 if all of that is so, else 1.
+folders hold no temporary file at the end. Exit status: 0 if all of that is so, else 1. Ctrl-C counts
+the kills so far.
 """
 import argparse
 import hashlib
@@ -125,12 +126,14 @@ def main():
             ended = bakes.run(moments.uniform(0.0, seconds) if left else 20 * seconds + 60)
             if ended:
                 bakes.check_end(expected)
+    except KeyboardInterrupt:
+        print("stopped early")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
     for fault in bakes.faults:
         print(fault)
     print(f"{bakes.kills} kills of a bake of {seconds:.1f} s every {a.every:g} s, {bakes.bakes} bakes "
-          f"ended; at most {max(bakes.lost):.1f} s of work lost; {len(bakes.faults)} faults")
+          f"ended; at most {max(bakes.lost, default=0.0):.1f} s of work lost; {len(bakes.faults)} faults")
     return 1 if bakes.faults else 0
 
 

@@ -337,6 +337,6 @@ TEST(folders_that_cannot_be_used)
     assert_non_null(strstr(alp_context_message(context), folder));
     snprintf(folder, sizeof folder, "%s/a/b", test_folder());
     p = start("bake", "a 1\n");
-    const alp_result result = run(&p); // made with its parents, or refused by name
-    assert_true(result == ALP_OK || strstr(alp_context_message(context), folder) != NULL);
+    ASSERT_OK(context, run(&p)); // made with its parents
+    assert_true(has_file("bake.state"));
 }
