@@ -49,7 +49,7 @@ typedef struct alp_checkpoint_info alp_checkpoint_info;
 
 /// Reads the states of a folder.
 /// @param info out, which the caller destroys; NULL on failure
-/// @return ALP_OK; INVALID_ARGUMENT (NULL); IO (no such folder, or unreadable); INVALID_DATA (no
+/// @return ALP_OK; INVALID_ARGUMENT (NULL); IO (unreadable); INVALID_DATA (no such folder, or no
 ///         checkpoint in it); OUT_OF_MEMORY
 ALP_API ALP_NODISCARD alp_result alp_checkpoint_read(alp_context *context, const char *folder,
                                                      alp_checkpoint_info **info);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes those files of the first corpus that no editor makes: images of every kind that is read,
-// probes, and inputs of the accessors' target. (Texts, and the archives of texts, were written by
-// hand.)
+// probes, checkpoints, and inputs of the accessors' target. (Texts, and the archives of texts, were
+// written by hand.)
 //
 //   fuzz_seeds FOLDER
 #include "seeds.h"
@@ -34,6 +34,7 @@ int main(int count, char **arguments)
         seed_fail("usage: fuzz_seeds FOLDER");
     }
     folder = arguments[1];
+    seeds_checkpoint(context);
     seeds_images(context);
     seeds_packed();
     seeds_probes(context);

@@ -190,9 +190,9 @@ static void put_draco(bool sequential, int bits, const char *name)
 {
     uint8_t packed[8192];
     uint32_t points = 0;
-    const draco_input from = {.positions = grid.positions,
-                              .normals = grid.normals,
-                              .uvs = grid.uvs,
+    const draco_input from = {.positions = (const float(*)[3])grid.positions,
+                              .normals = (const float(*)[3])grid.normals,
+                              .uvs = (const float(*)[2])grid.uvs,
                               .vertex_count = VERTICES,
                               .indices = grid.indices,
                               .index_count = INDICES,

@@ -11,6 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { SHARD_LIMIT = 1 << 16 };
+
 // --- shards --------------------------------------------------------------------------------------
 
 /// "I/N", or "slurm/N" whose I is the task of a job array.
@@ -26,7 +28,7 @@ static bool parse_shard(const char *text, uint32_t *shard, uint32_t *shards)
     memcpy(first, text, (size_t)(slash - text));
     const char *number = slurm ? task : first;
     if (number == NULL || number_parse_whole(number, &i) != NUMBER_OK ||
-        number_parse_whole(slash + 1, &n) != NUMBER_OK || i < 1 || i > n || n > 65536) {
+        number_parse_whole(slash + 1, &n) != NUMBER_OK || i < 1 || i > n || n > SHARD_LIMIT) {
         return false;
     }
     *shard = (uint32_t)i;
@@ -36,15 +38,23 @@ static bool parse_shard(const char *text, uint32_t *shard, uint32_t *shards)
 
 static int refuse_shard(const char *text)
 {
-    if (strncmp(text, "slurm/", 6) == 0 && getenv("SLURM_ARRAY_TASK_ID") == NULL) {
+    const char *task = getenv("SLURM_ARRAY_TASK_ID");
+    uint64_t n = 0;
+    if (strncmp(text, "slurm/", 6) != 0 || number_parse_whole(text + 6, &n) != NUMBER_OK || n < 1 ||
+        n > SHARD_LIMIT) {
+        return usage_error(COMMAND_BAKE,
+                           "--shard %s: need I/N with I from 1 to N and N at most %d, or slurm/N",
+                           text, SHARD_LIMIT);
+    }
+    if (task == NULL) {
         return usage_error(COMMAND_BAKE,
                            "--shard %s: SLURM_ARRAY_TASK_ID is not set; start it with "
                            "sbatch --array=1-%s",
                            text, text + 6);
     }
     return usage_error(COMMAND_BAKE,
-                       "--shard %s: need I/N with I from 1 to N and N at most 65536, or slurm/N",
-                       text);
+                       "--shard %s: SLURM_ARRAY_TASK_ID is %s; start it with sbatch --array=1-%s",
+                       text, task, text + 6);
 }
 
 static int read_shard(const command_line *a, alp_bake_options *o)
@@ -87,8 +97,8 @@ static char *make_restart(const command_line *a)
     for (int i = 0; i < a->word_count; i++) {
         json_array_append_new(words, json_string(a->words[i])); // NULL, no UTF-8: left out
     }
-    const bool whole = json_array_size(words) == (size_t)a->word_count &&
-                       getcwd(folder, sizeof folder) != NULL;
+    const bool whole =
+        json_array_size(words) == (size_t)a->word_count && getcwd(folder, sizeof folder) != NULL;
     json_t *object = json_pack("{s:s, s:o}", "folder", whole ? folder : "", "words", words);
     char *text = whole && object != NULL ? json_dumps(object, JSON_COMPACT) : NULL;
     json_decref(object);
@@ -99,8 +109,8 @@ void restart_add(restart_words *words, const char *word)
 {
     if (words->count == words->capacity) {
         words->capacity = 2 * words->capacity + 8;
-        words->words = allocate_or_exit(words->words,
-                                        (size_t)words->capacity * sizeof *words->words);
+        words->words =
+            allocate_or_exit(words->words, (size_t)words->capacity * sizeof *words->words);
     }
     const size_t size = strlen(word) + 1;
     words->words[words->count] = allocate_or_exit(NULL, size);

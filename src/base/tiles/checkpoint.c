@@ -63,8 +63,8 @@ static void collect(alpi_checkpoint *c)
         static const alpi_tile_head room = {0};
         const size_t start = c->pending.size;
         alpi_bytes_add(&c->pending, &room, sizeof room);
-        const uint32_t tiles = alpi_tile_pack(c->loop, c->states, 1u << ALPI_TILE_RAN, true,
-                                              &from, RECORD_BYTES, &c->pending);
+        const uint32_t tiles = alpi_tile_pack(c->loop, c->states, 1u << ALPI_TILE_RAN, true, &from,
+                                              RECORD_BYTES, &c->pending);
         if (tiles == 0) {
             c->pending.size = c->pending.failed ? 0 : start;
             break;
@@ -120,8 +120,7 @@ static void write_out(alpi_checkpoint *c, const char *phase)
     c->pending = alpi_bytes_create(c->context);
     const alpi_checkpoint_state state = state_of(c, phase, stage);
     pthread_mutex_unlock(&c->lock);
-    const bool logged =
-        bytes.size == 0 || alpi_tile_log_append(&c->own, bytes.bytes, bytes.size);
+    const bool logged = bytes.size == 0 || alpi_tile_log_append(&c->own, bytes.bytes, bytes.size);
     int why = logged ? 0 : errno;
     if (logged && !alpi_checkpoint_state_write(c->context, c->state_path, &state)) {
         why = errno;
@@ -306,29 +305,40 @@ static const char *find_setting(const char *settings, const char *name, size_t l
     return NULL;
 }
 
-/// Adds the settings of `ours` that `theirs` lacks or has with another value.
-static int add_differences(const char *ours, const char *theirs, bool swapped, char *text,
-                           size_t room)
+/// Part of a text.
+typedef struct words {
+    const char *text;
+    size_t length;
+} words;
+
+static void add_difference(words name, words was, words is, char *text, size_t room)
 {
-    int count = 0;
+    const size_t used = strlen(text);
+    if (used + 1 < room) {
+        snprintf(text + used, room - used, "%s%.*s was %.*s and is %.*s", used > 0 ? "; " : "",
+                 (int)name.length, name.text, (int)was.length, was.text, (int)is.length, is.text);
+    }
+}
+
+/// Adds the settings of `ours` that `theirs` lacks or has with another value.
+/// @param gone `ours` are those of the folder; settings with another value are left out
+static void add_differences(const char *ours, const char *theirs, bool gone, char *text,
+                            size_t room)
+{
+    const words none = {"none", 4};
     for (const char *line = ours; *line != '\0';) {
         const size_t size = strcspn(line, "\n"), length = strcspn(line, " \n");
-        size_t other = 0;
-        const char *value = find_setting(theirs, line, length, &other);
-        const size_t own = size > length ? size - length - 1 : 0;
-        const bool same = value != NULL && other == own &&
-                          strncmp(value, line + length + 1, own) == 0;
-        const size_t used = strlen(text);
-        if (!same && (!swapped || value == NULL) && used + 1 < room) {
-            snprintf(text + used, room - used, "%s%.*s was %.*s and is %.*s",
-                     used > 0 ? "; " : "", (int)length, line,
-                     value == NULL ? 4 : (int)other, value == NULL ? "none" : value,
-                     swapped ? 4 : (int)own, swapped ? "none" : line + length + 1);
-            count++;
+        const words own = {line + length + 1, size > length ? size - length - 1 : 0};
+        words other = {NULL, 0};
+        other.text = find_setting(theirs, line, length, &other.length);
+        if (other.text == NULL) {
+            add_difference((words){line, length}, gone ? own : none, gone ? none : own, text, room);
+        } else if (!gone &&
+                   (other.length != own.length || strncmp(other.text, own.text, own.length) != 0)) {
+            add_difference((words){line, length}, other, own, text, room);
         }
         line += size + (line[size] == '\n' ? 1 : 0);
     }
-    return count;
 }
 
 /// Refuses a folder that keeps another bake.
@@ -435,8 +445,7 @@ static void note_resumed(alpi_checkpoint *c, const alpi_checkpoint_list *list)
                   "before it");
     }
     if (c->resumes && !c->options.merging) {
-        alpi_note(c->context, "resumed", c->options.folder,
-                  "the bake goes on from its checkpoint");
+        alpi_note(c->context, "resumed", c->options.folder, "the bake goes on from its checkpoint");
     }
 }
 
@@ -461,8 +470,8 @@ static alp_result open_files(alpi_checkpoint *c)
 static alp_result copy_options(alpi_checkpoint *c, const alpi_checkpoint_options *o)
 {
     c->options = *o;
-    const char **const copies[TEXTS] = {&c->options.folder, &c->options.name,
-                                        &c->options.settings, &c->options.restart};
+    const char **const copies[TEXTS] = {&c->options.folder, &c->options.name, &c->options.settings,
+                                        &c->options.restart};
     c->options.restart = o->restart != NULL ? o->restart : "";
     for (int i = 0; i < TEXTS; i++) {
         c->texts[i] = alpi_copy_string(c->context, *copies[i]);
@@ -561,12 +570,17 @@ void alpi_checkpoint_close(alpi_checkpoint *checkpoint, bool complete)
         return;
     }
     stop_thread(c);
+    const bool is_done = complete && c->options.shards == 0;
+    if (is_done) { // nobody reads what was not written
+        alpi_bytes_destroy(&c->pending);
+        c->pending = alpi_bytes_create(c->context);
+    }
     if (!c->options.merging) {
         write_out(c, complete ? "complete" : "stopped");
         warn_of_trouble(c);
-        if (complete && c->options.shards == 0) {
-            remove_tiles(c);
-        }
+    }
+    if (is_done && !c->options.merging) {
+        remove_tiles(c);
     }
     release(c);
 }

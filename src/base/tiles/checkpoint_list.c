@@ -73,8 +73,8 @@ static alp_result read_states(alpi_checkpoint_list *l, const char *folder)
     for (size_t i = 0; i < l->count; i++) {
         bool damaged = false;
         char *path = alpi_format(l->context, "%s/%s.state", folder, l->names[i]);
-        const bool good = path != NULL && alpi_checkpoint_state_read(l->context, path,
-                                                                     &l->states[kept], &damaged);
+        const bool good = path != NULL &&
+                          alpi_checkpoint_state_read(l->context, path, &l->states[kept], &damaged);
         l->damaged += damaged || !good ? 1 : 0;
         if (good) {
             l->names[kept++] = l->names[i];

@@ -2,12 +2,14 @@
 #include "base/tiles/checkpoint_state.h"
 
 #include "base/bytes.h"
+#include "base/decimal.h"
 #include "base/hash.h"
 #include "base/memory.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,19 +17,39 @@
 #include <unistd.h>
 
 #define FIRST_LINE "alpenglow checkpoint 1\n"
-enum { CHECKSUM_LINE = 26, PATH_EXTRA = 8, SIZE_LIMIT = 1 << 24 }; // "checksum " + 16 digits + \n
+enum {
+    CHECKSUM_LINE = 26, // "checksum " + 16 digits + \n
+    PATH_EXTRA = 8,
+    SIZE_LIMIT = 1 << 24,
+    SHARD_LIMIT = 1 << 16
+};
+static const double SECONDS_LIMIT = 1e12;
 
 // --- writing -------------------------------------------------------------------------------------
+
+/// A line that has the same bytes in any locale; NaN is "none".
+static void add_number(alpi_bytes *b, const char *name, double value)
+{
+    alpi_bytes_print(b, "%s ", name);
+    if (isfinite(value)) {
+        alpi_bytes_number(b, value, 9);
+    } else {
+        alpi_bytes_print(b, "none");
+    }
+    alpi_bytes_print(b, "\n");
+}
 
 static alpi_bytes make_text(alp_context *context, const alpi_checkpoint_state *s)
 {
     alpi_bytes b = alpi_bytes_create(context);
     alpi_bytes_print(&b, FIRST_LINE "phase %s\nstage %s\ndone %" PRIu64 "\ntotal %" PRIu64 "\n",
                      s->phase, s->stage, s->done, s->total);
-    alpi_bytes_print(&b, "seconds %.3f\nleft %.3f\nerror %.9g\ntiles %" PRIu64 "\n", s->seconds,
-                     s->seconds_left, s->error, s->tiles);
-    alpi_bytes_print(&b, "written %" PRIu64 "\nshard %" PRIu32 "\nshards %" PRIu32 "\n",
-                     s->written, s->shard, s->count);
+    add_number(&b, "seconds", s->seconds);
+    add_number(&b, "left", s->seconds_left);
+    add_number(&b, "error", s->error);
+    alpi_bytes_print(&b, "tiles %" PRIu64 "\n", s->tiles);
+    alpi_bytes_print(&b, "written %" PRIu64 "\nshard %" PRIu32 "\nshards %" PRIu32 "\n", s->written,
+                     s->shard, s->count);
     alpi_bytes_print(&b, "restart %s\nsettings\n%s", s->restart != NULL ? s->restart : "",
                      s->settings);
     if (!b.failed) {
@@ -139,6 +161,24 @@ static const char *value(char **at, const char *name)
     return line + length + 1;
 }
 
+/// @return NaN: there is none
+static double number(char **at, const char *name)
+{
+    const char *text = value(at, name), *end = text + strlen(text);
+    double n = (double)NAN;
+    return alpi_decimal_double(text, end, &n) == end ? n : (double)NAN;
+}
+
+/// Whether the values are those of a process.
+static bool is_sound(const alpi_checkpoint_state *s)
+{
+    const bool known = strcmp(s->phase, "running") == 0 || strcmp(s->phase, "stopped") == 0 ||
+                       strcmp(s->phase, "complete") == 0;
+    return known && s->seconds >= 0.0 && s->seconds < SECONDS_LIMIT &&
+           !(s->seconds_left >= SECONDS_LIMIT) && !isinf(s->error) &&
+           (s->count == 0 ? s->shard == 0 : s->shard < s->count && s->count <= SHARD_LIMIT);
+}
+
 static bool parse(char *text, alpi_checkpoint_state *s)
 {
     const size_t first = strlen(FIRST_LINE), settings = strlen("settings\n");
@@ -150,9 +190,9 @@ static bool parse(char *text, alpi_checkpoint_state *s)
     s->stage = value(&at, "stage");
     s->done = strtoull(value(&at, "done"), NULL, 10);
     s->total = strtoull(value(&at, "total"), NULL, 10);
-    s->seconds = strtod(value(&at, "seconds"), NULL);
-    s->seconds_left = strtod(value(&at, "left"), NULL);
-    s->error = strtod(value(&at, "error"), NULL);
+    s->seconds = number(&at, "seconds");
+    s->seconds_left = number(&at, "left");
+    s->error = number(&at, "error");
     s->tiles = strtoull(value(&at, "tiles"), NULL, 10);
     s->written = strtoull(value(&at, "written"), NULL, 10);
     s->shard = (uint32_t)strtoul(value(&at, "shard"), NULL, 10);
@@ -162,7 +202,7 @@ static bool parse(char *text, alpi_checkpoint_state *s)
         return false;
     }
     s->settings = at + settings;
-    return true;
+    return is_sound(s);
 }
 
 static bool read_one(alp_context *context, const char *path, alpi_checkpoint_state *state,

@@ -92,8 +92,7 @@ static alpi_tile_run next_run(const alpi_tile_loop *loop, const _Atomic uint8_t 
         ++*from;
     }
     run.first = *from;
-    while (*from < tiles && alpi_tile_size(loop, run) < most &&
-           is_wanted(states, *from, wanted)) {
+    while (*from < tiles && alpi_tile_size(loop, run) < most && is_wanted(states, *from, wanted)) {
         run.count = ++*from - run.first;
     }
     return run;

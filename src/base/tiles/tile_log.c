@@ -21,6 +21,18 @@ typedef struct file_head {
     uint64_t own; // checksum of the fields above
 } file_head;
 
+uint64_t alpi_tile_checksum(const uint8_t *bytes, size_t size)
+{
+    uint64_t hash = ALPI_HASH_START, word;
+    size_t i = 0;
+    for (; size - i >= sizeof word; i += sizeof word) { // each step keeps all differences
+        memcpy(&word, bytes + i, sizeof word);
+        hash = (hash ^ word) * 0x100000001b3u;
+        hash ^= hash >> 32;
+    }
+    return alpi_hash_bytes(hash, bytes + i, size - i);
+}
+
 // --- bytes in and out ----------------------------------------------------------------------------
 
 static bool read_at(int file, uint64_t offset, void *bytes, size_t size)
@@ -82,8 +94,7 @@ static alp_result list_records(alpi_tile_log *log, uint64_t size)
     alpi_tile_record r;
     while (size - log->end >= sizeof r.head &&
            read_at(log->file, log->end, &r.head, sizeof r.head) && r.head.magic == RECORD_MAGIC &&
-           r.head.own == checksum_of(&r.head) &&
-           r.head.size <= size - log->end - sizeof r.head) {
+           r.head.own == checksum_of(&r.head) && r.head.size <= size - log->end - sizeof r.head) {
         r.offset = log->end + sizeof r.head;
         ALP_TRY(alpi_grow(log->context, (void **)&log->records, &log->capacity, log->count + 1,
                           sizeof r));
@@ -108,6 +119,10 @@ static alp_result read_log(alpi_tile_log *log, uint64_t key)
     if (fstat(log->file, &status) != 0) {
         return fail(log, "cannot read");
     }
+    if (!S_ISREG(status.st_mode)) {
+        return alpi_fail(log->context, ALP_ERROR_IO, "%s: is no file; take another folder",
+                         log->path);
+    }
     const uint64_t size = (uint64_t)status.st_size;
     const bool ours = size >= sizeof found && read_at(log->file, 0, &found, sizeof found) &&
                       memcmp(&found, &wanted, sizeof found) == 0;
@@ -131,7 +146,7 @@ static alp_result read_log(alpi_tile_log *log, uint64_t key)
 static alp_result open_file(alpi_tile_log *log)
 {
     const int flags = log->writes ? O_RDWR | O_CREAT : O_RDONLY;
-    log->file = open(log->path, flags | O_CLOEXEC, 0666);
+    log->file = open(log->path, flags | O_CLOEXEC | O_NONBLOCK, 0666);
     if (log->file < 0) {
         return fail(log, log->writes ? "cannot write" : "cannot read");
     }
@@ -176,7 +191,7 @@ bool alpi_tile_log_read(const alpi_tile_log *log, const alpi_tile_record *record
 {
     const size_t size = (size_t)record->head.size;
     return read_at(log->file, record->offset, bytes, size) &&
-           alpi_hash_bytes(ALPI_HASH_START, bytes, size) == record->head.checksum;
+           alpi_tile_checksum(bytes, size) == record->head.checksum;
 }
 
 void alpi_tile_log_seal(uint32_t loop, uint64_t shape, size_t start, alpi_bytes *bytes)
@@ -187,7 +202,7 @@ void alpi_tile_log_seal(uint32_t loop, uint64_t shape, size_t start, alpi_bytes 
     }
     const uint8_t *packed = bytes->bytes + start + sizeof head;
     head.size = bytes->size - start - sizeof head;
-    head.checksum = alpi_hash_bytes(ALPI_HASH_START, packed, (size_t)head.size);
+    head.checksum = alpi_tile_checksum(packed, (size_t)head.size);
     head.own = checksum_of(&head);
     memcpy(bytes->bytes + start, &head, sizeof head);
 }

@@ -16,7 +16,7 @@ typedef struct alpi_tile_head {
     uint32_t loop;     // its number in the bake
     uint64_t shape;    // alpi_tile_shape
     uint64_t size;     // of the packed tiles
-    uint64_t checksum; // of the packed tiles
+    uint64_t checksum; // alpi_tile_checksum of the packed tiles
     uint64_t own;      // checksum of the fields above
 } alpi_tile_head;
 
@@ -49,6 +49,8 @@ void alpi_tile_log_close(alpi_tile_log *log);
 /// @return false: unreadable, or the checksum is wrong
 bool alpi_tile_log_read(const alpi_tile_log *log, const alpi_tile_record *record, uint8_t *bytes);
 
+/// Fingerprint of bytes, eight at a time.
+uint64_t alpi_tile_checksum(const uint8_t *bytes, size_t size);
 /// Adds a record to bytes that are appended later. @param bytes from `start` on: room for the head,
 /// then packed tiles
 void alpi_tile_log_seal(uint32_t loop, uint64_t shape, size_t start, alpi_bytes *bytes);

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+# Shards, and the merge that writes what one bake writes: maps of occlusion and light, an asset.
+bake() { alpenglow bake builtin:cornell --size 48 --ao-samples 64 --samples 32 --bounces 2 --maps ao,light \
+    --adaptive off -q --progress off "$@"; }
+shard() { alpenglow bake builtin:cornell --size 48 --ao-samples 64 --samples 32 --bounces 2 --maps ao,light \
+    -q --progress off -o out.glb --maps-dir maps --checkpoint c --shard "$@"; }
+same() { cmp whole.glb "$1" && diff -r whole "$2" && echo same; }
+bake -o whole.glb --maps-dir whole
+shard 2/5 && shard 4/5
+alpenglow merge c -q
+echo "exit $?"
+SLURM_ARRAY_TASK_ID=1 shard slurm/5 && shard 3/5
+shard 2/6
+echo "exit $?"
+alpenglow merge c -q
+echo "exit $?"
+ls
+shard 5/5
+alpenglow merge c -q && same out.glb maps
+alpenglow merge c -q
+echo "exit $?"
+alpenglow merge c -q -f && same out.glb maps
+mkdir elsewhere
+(cd elsewhere && alpenglow merge ../c -q -o new.glb -f && alpenglow merge ../c -q -f -o folder)
+ls elsewhere elsewhere/folder
+cmp whole.glb elsewhere/new.glb && diff -r whole elsewhere/folder && echo same
+alpenglow merge c -q -o elsewhere/new.glb
+echo "exit $?"

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# SIGTERM and SIGUSR1 write the checkpoint and end with 75, Ctrl-C with 130; the work is kept each time,
+# and the same command goes on. The first write comes within 5 s of the first ray.
+set -m # jobs of their own, in which SIGINT is not ignored
+bake=(alpenglow bake builtin:cornell --size 128 --ao-samples 24576 --progress off -q -f)
+"${bake[@]}" --maps-dir whole
+for signal in TERM USR1 INT; do
+    "${bake[@]}" --maps-dir maps --checkpoint c 2>stderr &
+    job=$!
+    sleep 0.7
+    kill -$signal $job
+    wait $job
+    echo "$signal: exit $?"
+    cat stderr
+    [ -s c/bake.tiles ] || echo "no tiles"
+    before=$(sed -n 's/^tiles //p' c/bake.state)
+    [ "$before" -gt 0 ] || echo "no work was kept"
+done
+"${bake[@]}" --maps-dir maps --checkpoint c --json report.json
+echo "exit $?"
+cmp whole/ao.exr maps/ao.exr && echo same
+"${bake[@]}" --ao-samples 1048576 --maps-dir maps --checkpoint long &
+job=$!
+disown $job
+began=$(date +%s%N)
+while [ ! -e long/bake.state ] && [ $(($(date +%s%N) - began)) -lt 15000000000 ]; do
+    sleep 0.1
+done
+late=$((($(date +%s%N) - began) / 1000000))
+[ $late -le 5500 ] || echo "the first write took $late ms" # half a second to start
+kill -KILL $job
+alpenglow status long | sed 's/;.*//'
