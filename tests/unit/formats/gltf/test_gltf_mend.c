@@ -127,8 +127,8 @@ TEST_WITH_CONTEXT(a_missing_texture_costs_one_warning, 1)
         "'textures':[{'source':6}],",
         "'textures':[{}],",
         "'textures':[{'source':0}],'images':[{'uri':'none.png'}],",
-        "'textures':[{'source':0},{'source':1},{'source':2}],'images':[{'uri':'none.png'},"
-        "{'uri':'none.png'},{'uri':'none.png'}],",
+        ("'textures':[{'source':0},{'source':1},{'source':2}],'images':[{'uri':'none.png'},"
+         "{'uri':'none.png'},{'uri':'none.png'}],"),
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char members[2048];
