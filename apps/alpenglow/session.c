@@ -107,7 +107,10 @@ int session_end(session *s, alp_result result)
     const bool gave_up = together.ranks != NULL && result == ALP_ERROR_IO && interrupt_asked();
     if (result == ALP_ERROR_CANCELLED || gave_up) {
         if (interrupt_stops()) {
-            failure("stopped; the checkpoint keeps the work, and the same command goes on from it");
+            failure(gave_up ? "told to stop, and another rank is gone; the checkpoint keeps the "
+                              "work, and the same command goes on from it with any number of ranks"
+                            : "stopped; the checkpoint keeps the work, and the same command goes "
+                              "on from it");
             return EXIT_STOPPED;
         }
         if (interrupt_asked()) {

@@ -6,6 +6,7 @@
 #include "captured.h"
 #include "dispatch.h"
 #include "interrupt.h"
+#include "levels.h"
 #include "messages.h"
 #include "ranks/ranks_mpi.h"
 #include "session.h"
@@ -14,6 +15,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // The hooks of a session have no argument of ours.
 static alpi_ranks_mpi *job;
@@ -21,37 +23,12 @@ static int *codes;    // [count of ranks] of the last meeting
 static bool has_met;  // after loading
 static bool was_told; // another rank failed there
 
-// --- instruction sets ----------------------------------------------------------------------------
-
-static const char *const levels[] = {"sse2", "sse4.2", "avx", "avx2", NULL};
-enum { LEVEL_BEST = 4 }; // of a machine with AVX-512: nothing limits it
-
-static int own_level(void)
-{
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx512f")  ? LEVEL_BEST
-           : __builtin_cpu_supports("avx2")   ? 3
-           : __builtin_cpu_supports("avx")    ? 2
-           : __builtin_cpu_supports("sse4.2") ? 1
-                                              : 0;
-#else
-    return LEVEL_BEST;
-#endif
-}
-
-/// The lowest level of all ranks; NULL where they have the same.
+/// The lowest instruction set of all ranks; NULL where they have the same.
 static const char *agree_on_level(void)
 {
-    const uint32_t count = alpi_ranks_mpi_calls(job)->count;
-    int least = LEVEL_BEST, most = 0;
-    if (!alpi_ranks_mpi_meet(job, own_level(), codes)) {
-        return NULL;
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        least = codes[i] < least ? codes[i] : least;
-        most = codes[i] > most ? codes[i] : most;
-    }
-    return least < most ? levels[least] : NULL;
+    return alpi_ranks_mpi_meet(job, levels_own(), codes)
+               ? levels_lowest(codes, alpi_ranks_mpi_calls(job)->count)
+               : NULL;
 }
 
 // --- meetings ------------------------------------------------------------------------------------
@@ -134,11 +111,15 @@ static int run_together(int count, char **words)
     return meet_before_end(code);
 }
 
-/// Ends all ranks at once: one of them is gone, or does something else.
+/// Ends all ranks at once: one of them is gone, or does something else. Whoever told this rank to
+/// stop ends the others.
 static int abandon(int code)
 {
     fflush(stdout);
     fflush(stderr);
+    if (interrupt_asked()) {
+        _exit(code);
+    }
     MPI_Abort(MPI_COMM_WORLD, code != EXIT_DONE ? code : EXIT_FAILED);
     return code;
 }
