@@ -26,8 +26,7 @@ typedef struct alp_ranks {
     void *user;         ///< of the calls
 
     /// Adds `amount` to a counter that all ranks share. Counters begin at 0. A counter is a pair
-    /// (loop, part): `loop` counts up from 0, `part` is in [0, count). Counters of a loop are used
-    /// until the next exchange after it.
+    /// (loop, part): `loop` is the number of exchanges so far, `part` is in [0, count).
     /// @return the value before; UINT64_MAX: the call failed
     uint64_t (*claim)(void *user, uint64_t loop, uint32_t part, uint64_t amount);
 

@@ -85,8 +85,8 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
         work_print(stderr, &work);
     }
     alp_probe_options probes;
-    int code =
-        probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin, &probes);
+    int code = session_meet(
+        probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin, &probes));
     if (code != EXIT_DONE) {
         return code;
     }
@@ -97,7 +97,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
         alp_lightmap_destroy(lightmap);
         return end_shard(s, a, o, &told);
     }
-    if (code == EXIT_DONE) {
+    if (code == EXIT_DONE && session_writes()) {
         code = report(s, lightmap, &told, a);
     }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);

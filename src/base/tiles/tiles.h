@@ -66,7 +66,8 @@ typedef struct alpi_tiles {
     bool merging;                       // tiles are read from shards; see missing
     uint32_t next[ALPI_TILE_KINDS];     // number of the next loop of each kind
     uint32_t number;                    // of the loop that runs, with its kind
-    uint64_t claims;                    // number of the next loop of all
+    bool together;                      // ranks began work, and share loops
+    uint64_t claims;                    // calls of ranks so far: the number of the next loop
     uint64_t ran, skipped, read;        // tiles of this bake so far
     bool *missing;                      // [shards] merging: shards whose tiles are not there
 } alpi_tiles;
