@@ -104,6 +104,9 @@ static void finish_report(alpi_bake_job *job, double started)
     r->input_hash = job->scene->input_hash;
     r->peak_memory_bytes = alp_context_peak_memory(job->context);
     r->seconds_total = alpi_seconds() - started;
+    if (r->shard_done && r->seconds_total > 0.0) {
+        r->shard_repeated_share = 1.0 - tiles->split_seconds / r->seconds_total;
+    }
 }
 
 alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,

@@ -216,6 +216,7 @@ static alp_result run(tile_run *r)
         (void)alpi_checkpoint_begin_loop(t->checkpoint, r->loop, t->number, r->states);
     }
     alp_result result = ALP_OK;
+    const double began = alpi_seconds();
     if (!find_missing(r)) {
         result = r->ranks != NULL
                      ? run_parts(r)
@@ -227,6 +228,7 @@ static alp_result run(tile_run *r)
     if (t->checkpoint != NULL) {
         alpi_checkpoint_end_loop(t->checkpoint);
     }
+    t->split_seconds += t->kind == ALPI_TILES_SPLIT ? alpi_seconds() - began : 0.0;
     count_tiles(r);
     return result;
 }

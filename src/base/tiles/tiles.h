@@ -69,6 +69,7 @@ typedef struct alpi_tiles {
     bool together;                      // ranks began work, and share loops
     uint64_t claims;                    // calls of ranks so far: the number of the next loop
     uint64_t ran, skipped, read;        // tiles of this bake so far
+    double split_seconds;               // a shard: in loops that are SPLIT
     bool *missing;                      // [shards] merging: shards whose tiles are not there
 } alpi_tiles;
 
