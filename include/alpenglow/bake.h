@@ -384,7 +384,7 @@ typedef struct alp_bake_report {
     /// repeats this work: charts, receivers, direct light and all passes of the whole scene. It
     /// rises when the shard resumes, for its own tiles are then read. Else 0.
     double shard_repeated_share;
-    /// Tiles of the loops that trace rays, of about a millisecond each: those that this process
+    /// Tiles of the loops that trace rays, of a tenth to some milliseconds each: those that this process
     /// ran, and those that it read from the checkpoint or received from other ranks. 0 without
     /// checkpoint and ranks.
     uint64_t tiles_run, tiles_read;

@@ -38,7 +38,13 @@ stop() { # the process of a pid file
     kill -9 "$pid" 2>/dev/null
 }
 finish() {
-    [ ! -s "$folder/slurmctld.pid" ] || scancel --user=root >/dev/null 2>&1
+    if [ -s "$folder/slurmctld.pid" ]; then
+        scancel --user=root >/dev/null 2>&1
+        for _ in $(seq 50); do
+            [ -n "$(squeue -h 2>/dev/null)" ] || break
+            sleep 0.2
+        done
+    fi
     stop "$folder/slurmd.pid"
     stop "$folder/slurmctld.pid"
     stop "$folder/munged.pid"
