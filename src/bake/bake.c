@@ -125,8 +125,7 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     const char *folder = job.options.maps_folder;
     bool folder_is_new = folder != NULL && access(folder, F_OK) != 0;
     const double started = alpi_seconds();
-    const alp_result result =
-        alpi_ranks_end(job.context, alpi_bake_end_budget(&job, run(&job)));
+    const alp_result result = alpi_ranks_end(job.context, alpi_bake_end_budget(&job, run(&job)));
     finish_report(&job, started);
     alpi_bake_close_checkpoint(&job, result == ALP_OK);
     alpi_set_watch(job.context, former);

@@ -32,10 +32,10 @@ typedef struct tile_run {
     const alpi_tile_loop *loop;
     alp_context *context;
     alpi_tiles *tiles;
-    const alp_ranks *ranks;   // NULL: one process
-    uint32_t count;           // tiles
-    _Atomic uint8_t *states;  // [count] of alpi_tile_state
-    const uint32_t *picked;   // tiles of the batch; NULL: all
+    const alp_ranks *ranks;  // NULL: one process
+    uint32_t count;          // tiles
+    _Atomic uint8_t *states; // [count] of alpi_tile_state
+    const uint32_t *picked;  // tiles of the batch; NULL: all
     alpi_task_progress progress;
 } tile_run;
 
@@ -45,7 +45,8 @@ typedef struct tile_run {
 static bool is_of_others(const tile_run *r, uint32_t tile)
 {
     const alpi_tiles *t = r->tiles;
-    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) && tile % t->shards != t->shard;
+    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) &&
+           tile % t->shards != t->shard;
 }
 
 static alp_result run_tiles(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -80,8 +81,8 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 
 // --- ranks ---------------------------------------------------------------------------------------
 
-// Tiles are dealt to ranks in turn, part p of n has tiles p, p + n, p + 2 n … Each rank claims tiles
-// of its own part first, then those that others have not claimed.
+// Tiles are dealt to ranks in turn, part p of n has tiles p, p + n, p + 2 n … Each rank claims
+// tiles of its own part first, then those that others have not claimed.
 
 /// Claims tiles of a part and runs them, until none is left.
 static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t most)
