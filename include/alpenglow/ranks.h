@@ -17,8 +17,8 @@ ALP_BEGIN_DECLS
 typedef bool alp_receive_fn(void *receiver, uint32_t rank, const void *bytes, size_t size);
 
 /// The processes that work together, and this one's place among them. All of them make the same
-/// calls with the same scene and options, in the same order. All calls run on the thread that called
-/// the library.
+/// calls with the same scene and options, in the same order. All calls run on the thread that
+/// called the library.
 typedef struct alp_ranks {
     size_t struct_size; ///< set by the default
     uint32_t rank;      ///< of this process, in [0, count)

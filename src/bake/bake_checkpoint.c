@@ -172,15 +172,13 @@ alp_result alpi_bake_open_checkpoint(alpi_bake_job *job)
     tiles->merging = c->merge;
     ALPI_TRY_NEW(job->context, tiles->missing, c->shards);
     alpi_bytes settings = alpi_bake_settings(job);
-    const alp_result result = settings.failed
-                                  ? ALP_ERROR_OUT_OF_MEMORY
-                                  : open_files(job, (const char *)settings.bytes);
+    const alp_result result =
+        settings.failed ? ALP_ERROR_OUT_OF_MEMORY : open_files(job, (const char *)settings.bytes);
     alpi_bytes_destroy(&settings);
     job->told = (alpi_watch){.callback = job->options.progress, .user = job->options.progress_user};
     job->options.progress = note_progress;
     job->options.progress_user = job;
-    (void)alpi_set_watch(job->context,
-                         (alpi_watch){.callback = note_progress, .user = job});
+    (void)alpi_set_watch(job->context, (alpi_watch){.callback = note_progress, .user = job});
     return result;
 }
 
@@ -265,8 +263,7 @@ static void fill_processes(alp_checkpoint_info *info)
     }
 }
 
-alp_result alp_checkpoint_read(alp_context *context, const char *folder,
-                               alp_checkpoint_info **info)
+alp_result alp_checkpoint_read(alp_context *context, const char *folder, alp_checkpoint_info **info)
 {
     if (context == NULL || folder == NULL || info == NULL) {
         return INVALID;

@@ -30,10 +30,10 @@ typedef struct call_head {
 struct alpi_ranks_mpi {
     alp_ranks calls;
     MPI_Comm world;
-    MPI_Win window;     // [LOOPS][count] counters on rank 0
-    uint64_t *counters; // of this process, NULL unless rank 0
-    uint64_t exchanges; // so far
-    call_head *heads;   // [count] of the last call
+    MPI_Win window;      // [LOOPS][count] counters on rank 0
+    uint64_t *counters;  // of this process, NULL unless rank 0
+    uint64_t exchanges;  // so far
+    call_head *heads;    // [count] of the last call
     int *sizes, *places; // [count]
     bool (*stops)(void);
     bool broken;
@@ -215,9 +215,8 @@ static bool exchange(void *user, const void *bytes, size_t size, alp_receive_fn 
         all += r->heads[i].size;
     }
     r->exchanges++;
-    return all <= TOGETHER_BYTES
-               ? exchange_together(r, bytes, size, (size_t)all, receive, receiver)
-               : exchange_apart(r, bytes, receive, receiver);
+    return all <= TOGETHER_BYTES ? exchange_together(r, bytes, size, (size_t)all, receive, receiver)
+                                 : exchange_apart(r, bytes, receive, receiver);
 }
 
 bool alpi_ranks_mpi_meet(alpi_ranks_mpi *ranks, int value, int *values)

@@ -23,11 +23,11 @@ typedef void test_rank_fn(test_rank *rank);
 
 typedef struct test_ranks_options {
     uint32_t count, workers;
-    uint32_t slow;      // 1 + the rank that sleeps at every claim; 0: none
-    uint32_t leaves;    // 1 + the rank that is gone after `calls` exchanges; 0: none
+    uint32_t slow;   // 1 + the rank that sleeps at every claim; 0: none
+    uint32_t leaves; // 1 + the rank that is gone after `calls` exchanges; 0: none
     uint32_t calls;
-    uint32_t starved;   // 1 + the rank with the allocator of `allocations`; 0: none
-    int allocations;    // that succeed
+    uint32_t starved;                  // 1 + the rank with the allocator of `allocations`; 0: none
+    int allocations;                   // that succeed
     const void *what[TEST_RANKS_MOST]; // of each rank; NULL: that of rank 0
 } test_ranks_options;
 

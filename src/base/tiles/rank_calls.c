@@ -34,9 +34,9 @@ bool alpi_ranks_write(const alp_context *context)
 typedef struct receiving {
     const alpi_rank_call *call;
     bool differs, damaged;
-    uint32_t failed;            // the lowest rank that failed
-    alp_result result;          // and its result
-    char text[ALPI_RANK_TEXT];  // and its message
+    uint32_t failed;           // the lowest rank that failed
+    alp_result result;         // and its result
+    char text[ALPI_RANK_TEXT]; // and its message
 } receiving;
 
 static bool receive(void *receiver, uint32_t rank, const void *bytes, size_t size)
@@ -142,11 +142,10 @@ static alp_result begin(alp_context *context, const char *settings, uint8_t *byt
     const uint32_t own = alpi_context_ranks(context)->rank;
     comparison c = {.settings = settings};
     memcpy(bytes + sizeof(alpi_rank_head), settings, size - sizeof(alpi_rank_head));
-    ALP_TRY(alpi_rank_exchange(context, &(alpi_rank_call){.shape = SHAPE_BEGIN,
-                                                          .bytes = bytes,
-                                                          .size = size,
-                                                          .take = compare,
-                                                          .user = &c}));
+    ALP_TRY(alpi_rank_exchange(
+        context,
+        &(alpi_rank_call){
+            .shape = SHAPE_BEGIN, .bytes = bytes, .size = size, .take = compare, .user = &c}));
     if (c.line == NULL) {
         return ALP_OK;
     }
@@ -193,8 +192,7 @@ alp_result alpi_ranks_end(alp_context *context, alp_result result)
     if (result != ALP_OK) {
         claim_all(context);
     }
-    result = alpi_rank_exchange(context,
-                                &(alpi_rank_call){.shape = SHAPE_END, .result = result});
+    result = alpi_rank_exchange(context, &(alpi_rank_call){.shape = SHAPE_END, .result = result});
     tiles->together = false;
     return result;
 }

@@ -11,9 +11,9 @@ enum { ALPI_RANK_TEXT = 256 };
 
 /// Stands before the bytes of a call.
 typedef struct alpi_rank_head {
-    uint64_t shape;   // of the loop, or of the beginning or the end
-    uint32_t number;  // of the loop
-    int32_t result;   // alp_result of the sender; unless OK, no bytes follow
+    uint64_t shape;            // of the loop, or of the beginning or the end
+    uint32_t number;           // of the loop
+    int32_t result;            // alp_result of the sender; unless OK, no bytes follow
     char text[ALPI_RANK_TEXT]; // message of a failure
 } alpi_rank_head;
 

@@ -32,10 +32,10 @@ typedef struct tile_run {
     const alpi_tile_loop *loop;
     alp_context *context;
     alpi_tiles *tiles;
-    const alp_ranks *ranks;   // NULL: one process
-    uint32_t count;           // tiles
-    _Atomic uint8_t *states;  // [count] of alpi_tile_state
-    const uint32_t *picked;   // tiles of the batch; NULL: all
+    const alp_ranks *ranks;  // NULL: one process
+    uint32_t count;          // tiles
+    _Atomic uint8_t *states; // [count] of alpi_tile_state
+    const uint32_t *picked;  // tiles of the batch; NULL: all
     alpi_task_progress progress;
 } tile_run;
 
@@ -45,7 +45,8 @@ typedef struct tile_run {
 static bool is_of_others(const tile_run *r, uint32_t tile)
 {
     const alpi_tiles *t = r->tiles;
-    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) && tile % t->shards != t->shard;
+    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) &&
+           tile % t->shards != t->shard;
 }
 
 static alp_result run_tiles(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -80,14 +81,19 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 
 // --- ranks ---------------------------------------------------------------------------------------
 
-// Tiles are dealt to ranks in turn, part p of n has tiles p, p + n, p + 2 n … Each rank claims tiles
-// of its own part first, then those that others have not claimed.
+// Part p of n is the tiles [count p / n, count (p + 1) / n), whatever their size: loops over the
+// same items, some of which fill a cache of rays, have the same parts. Each rank claims tiles of
+// its own part first, then those that others have not claimed.
+
+static uint32_t part_begin(const tile_run *r, uint32_t part)
+{
+    return (uint32_t)((uint64_t)r->count * part / r->ranks->count);
+}
 
 /// Claims tiles of a part and runs them, until none is left.
 static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t most)
 {
-    const uint32_t n = r->ranks->count;
-    const uint32_t size = r->count > part ? (r->count - part - 1) / n + 1 : 0;
+    const uint32_t begin = part_begin(r, part), size = part_begin(r, part + 1) - begin;
     for (;;) {
         const uint64_t first =
             size > 0 ? r->ranks->claim(r->ranks->user, r->tiles->claims, part, most) : size;
@@ -100,11 +106,11 @@ static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t
         }
         const uint32_t count = (uint32_t)(first + most < size ? most : size - first);
         for (uint32_t i = 0; i < count; i++) {
-            batch[i] = (uint32_t)(first + i) * n + part;
+            batch[i] = begin + (uint32_t)first + i;
         }
         r->picked = batch;
         ALP_TRY(alpi_parallel_for(r->context, count, 1, run_tiles, r, &r->progress));
-        r->progress.units_before += r->progress.units_per_item * count * n;
+        r->progress.units_before += r->progress.units_per_item * count * r->ranks->count;
     }
 }
 

@@ -32,12 +32,13 @@ typedef struct alpi_tile_loop {
     // with marks is never stored: a resumed process runs it again.
     uint8_t *marks;
     size_t mark_count;
-    // The body fills a cache that is neither stored nor sent. A resumed process runs the loop again.
+    // The body fills a cache that is neither stored nor sent. A resumed process runs the loop
+    // again.
     bool fills_cache;
 } alpi_tile_loop;
 
-/// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With ranks,
-/// each process runs some tiles and receives the others. A shard runs its own tiles alone of
+/// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With
+/// ranks, each process runs some tiles and receives the others. A shard runs its own tiles alone of
 /// loops that are SPLIT.
 /// @return ALP_OK; the failure of the lowest failing range; CANCELLED; IO (ranks that fail, or that
 ///         run different loops); OUT_OF_MEMORY

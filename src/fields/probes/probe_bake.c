@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The bake of probes: solve the scene's light, sample it, and measure the result.
-#include "base/bytes.h"
-#include "base/hash.h"
-#include "base/image.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
 #include "base/tiles/rank_calls.h"
 #include "base/warp.h"
 #include "fields/probes/probe_layers.h"
+#include "fields/probes/probe_ranks.h"
 #include "fields/probes/probes.h"
 #include "fields/truth.h"
 #include "maps/radiosity/solution.h"
 #include "scene/origin.h"
 #include "transport/examine.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -494,51 +491,6 @@ static alp_result run(probe_job *job)
     return job->volume->is_list ? ALP_OK : state_interpolation(job);
 }
 
-static uint64_t hash_lighting(const alp_lighting_options *l)
-{
-    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, &l->sun, sizeof l->sun);
-    hash = alpi_hash_bytes(hash, l->sky.up, sizeof l->sky.up);
-    hash = alpi_hash_bytes(hash, l->sky.down, sizeof l->sky.down);
-    if (l->sky.image != NULL) {
-        const alp_image_info i = l->sky.image->info;
-        const size_t size = i.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
-        hash = alpi_hash_bytes(hash, l->sky.image->pixels,
-                               (size_t)i.width * i.height * i.channels * size);
-    }
-    for (uint32_t i = 0; i < l->lamp_count; i++) {
-        hash = alpi_hash_bytes(hash, l->lamps[i].position, sizeof l->lamps[i].position);
-        hash = alpi_hash_bytes(hash, l->lamps[i].color, sizeof l->lamps[i].color);
-    }
-    return hash;
-}
-
-/// Begins with all ranks, whose scene and options must be the same.
-static alp_result begin_ranks(const alp_scene *scene, const alp_probe_options *options, bool *began)
-{
-    const alp_probe_options o = options ? *options : alp_probe_options_default();
-    uint64_t places = alpi_hash_bytes(ALPI_HASH_START, o.bounds_min, sizeof o.bounds_min);
-    places = alpi_hash_bytes(places, o.bounds_max, sizeof o.bounds_max);
-    if (o.positions != NULL) {
-        places = alpi_hash_bytes(places, o.positions, o.position_count * sizeof *o.positions);
-    }
-    alpi_bytes settings = alpi_bytes_create(scene->context);
-    alpi_bytes_print(&settings, "alpenglow %s\ninstructions %s\n", alp_version(),
-                     alpi_context_isa(scene->context));
-    alpi_bytes_print(&settings, "SCENE-content %016" PRIx64 "\nlight %016" PRIx64 "\n",
-                     scene->input_hash, hash_lighting(&o.lighting));
-    alpi_bytes_print(&settings, "probe-places %016" PRIx64 "\nspacing %a\n", places,
-                     (double)o.spacing);
-    alpi_bytes_print(&settings, "kind %d %d %d %d %d\nprobe-rays %u\nbounces %u\n", o.basis,
-                     o.visibility, o.gradients, o.layers, o.direct, o.rays, o.bounces);
-    alpi_bytes_print(&settings, "seed %" PRIu64 "\n", o.seed);
-    *began = false;
-    const alp_result result =
-        settings.failed ? ALP_ERROR_OUT_OF_MEMORY
-                        : alpi_ranks_begin(scene->context, (const char *)settings.bytes, began);
-    alpi_bytes_destroy(&settings);
-    return result;
-}
-
 alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *options,
                            alp_probes **probes)
 {
@@ -546,7 +498,7 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
         return ALP_ERROR_INVALID_ARGUMENT;
     }
     bool began;
-    alp_result result = begin_ranks(scene, options, &began);
+    alp_result result = alpi_probes_begin_ranks(scene, options, &began);
     *probes = NULL;
     if (result == ALP_OK) {
         result = alpi_probes_bake(scene, options, NULL, probes);

@@ -27,10 +27,8 @@ typedef struct bake_kind {
 
 static const bake_kind OCCLUSION = {
     .name = "occlusion", .scene = "builtin:cornell", .maps = ALP_MAP_AO | ALP_MAP_BENT};
-static const bake_kind IN_ROUNDS = {.name = "occlusion in rounds",
-                                    .scene = "builtin:cornell",
-                                    .maps = ALP_MAP_AO,
-                                    .error = 0.02f};
+static const bake_kind IN_ROUNDS = {
+    .name = "occlusion in rounds", .scene = "builtin:cornell", .maps = ALP_MAP_AO, .error = 0.02f};
 static const bake_kind LIGHT = {.name = "light in rounds",
                                 .scene = "builtin:cornell",
                                 .maps = ALP_MAP_LIGHT | ALP_MAP_SH,
@@ -40,9 +38,8 @@ static const bake_kind LAYERS = {.name = "layers",
                                  .maps = ALP_MAP_LIGHT | ALP_MAP_DIRECTION,
                                  .layers = true,
                                  .error = 0.05f};
-static const bake_kind PANES = {.name = "panes",
-                                .scene = "builtin:windows",
-                                .maps = ALP_MAP_AO | ALP_MAP_LIGHT};
+static const bake_kind PANES = {
+    .name = "panes", .scene = "builtin:windows", .maps = ALP_MAP_AO | ALP_MAP_LIGHT};
 static const bake_kind TWO_SIDED = {.name = "two sides", .maps = ALP_MAP_AO | ALP_MAP_LIGHT};
 static const bake_kind PROBES = {.name = "probes", .scene = "builtin:cornell", .probes = true};
 
@@ -87,8 +84,8 @@ static void keep_maps(test_rank *r, const alp_lightmap *l)
     uint32_t w, h;
     for (uint32_t i = 0; i < PAGES; i++) {
         const bool sh = i >= 16 && i < 20;
-        const float *page = i < 16  ? alp_lightmap_map_page(l, (alp_map)(1u << i), 0, &w, &h)
-                            : sh    ? alp_lightmap_sh_page(l, i - 16, 0, &w, &h)
+        const float *page = i < 16 ? alp_lightmap_map_page(l, (alp_map)(1u << i), 0, &w, &h)
+                            : sh   ? alp_lightmap_sh_page(l, i - 16, 0, &w, &h)
                             : i - 20 < alp_lightmap_layer_count(l)
                                 ? alp_lightmap_layer_page(l, i - 20, 0, &w, &h)
                                 : NULL;
