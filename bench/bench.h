@@ -30,6 +30,8 @@ bench_fn bench_lpv_truth;                              // of lpv
 
 /// Figures of one atlas for scripts; the words after its name. @return exit status
 int bench_measure_atlas(int count, char **words);
+/// Records the seconds of each tile of a bake; the words after its name. @return exit status
+int bench_record_tiles(int count, char **words);
 
 // --- tables --------------------------------------------------------------------------------------
 

@@ -36,6 +36,9 @@ int main(int count, char **words)
     if (count > 1 && strcmp(words[1], "measure-atlas") == 0) {
         return bench_measure_atlas(count - 2, words + 2);
     }
+    if (count > 1 && strcmp(words[1], "record-tiles") == 0) {
+        return bench_record_tiles(count - 2, words + 2);
+    }
     bench_options options = {0};
     bool wanted[BENCH_COUNT] = {false}, any = false;
     for (int i = 1; i < count; i++) {

@@ -29,6 +29,7 @@ ROOMS = {
                "base"],
     "bake": ["doctor", "render", "fields", "maps", "transport", "atlas", "trace", "formats", "scene",
              "film", "sh", "base"],
+    "ranks": ["base"],
     "report": ["bake", "doctor", "render", "fields", "maps", "transport", "atlas", "trace", "formats",
                "scene", "film", "sh", "base"],
 }
@@ -78,7 +79,7 @@ SUB_ROOMS = {
 # public header: the lowest room that may include it, which stands for it in the law
 PUBLIC = {
     "export": "base", "version": "base", "result": "base", "context": "base", "image": "base",
-    "checkpoint": "base", "ranks": "base",
+    "ranks": "base", "checkpoint": "base",
     "sh": "sh", "shared_constants": "base", "display": "film", "film": "film", "geometry": "scene",
     "light": "scene", "scene": "scene", "atlas": "atlas", "occlusion": "transport", "lightmap": "maps",
     "field": "fields", "probes": "fields", "ambience": "fields", "lpv": "fields", "render": "render",
@@ -103,6 +104,7 @@ THIRD_PARTY = {
     # The viewer is a host, whose threads look fields up.
     r"pthread\.h": ["src/base", "apps/viewer/field_points.c"],
     r"epoxy/.*": ["apps/viewer"],
+    r"mpi\.h": ["src/ranks", "apps/ranks"],
 }
 
 # of C17 and POSIX
@@ -193,7 +195,8 @@ def fault_of_quoted(root, place, room, target):
     if room is None:
         own = root / "/".join(place.split("/")[:2]) / target # written from the app's folder
         parts = root / "apps/alpenglow" / target # of the command, which other programs have too
-        known = own.is_file() or parts.is_file()
+        ranks = place.startswith("apps/ranks/") and target.startswith("ranks/")
+        known = own.is_file() or parts.is_file() or (ranks and (root / "src" / target).is_file())
         return None if known else f'an app may not include "{target}": it is not its own'
     other = target.split("/")[0]
     if not target.endswith(".h"):

@@ -5,6 +5,7 @@
 #   scripts/setup.sh build    what the library, the command and the viewer need
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
 #   scripts/setup.sh browser  that, and a browser (some 500 MB), which opens what is written for it
+#   scripts/setup.sh cluster  what check needs, MPI, and Slurm for tests (some 140 MB)
 #
 # Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
 # and, where there is a browser, what runs in it come from npm; without them some tests are skipped.
@@ -57,6 +58,11 @@ check_packages="
     zstd                zstd"
 browser_packages="
     chromium            chromium"
+cluster_packages="
+    libopenmpi-dev      -
+    openmpi-bin         mpirun
+    slurm-wlm           -
+    munge               -"
 
 say() {
     printf 'setup: %s\n' "$*" >&2
@@ -120,8 +126,9 @@ case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
 browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages ;;
+cluster) wanted=$build_packages$'\n'$check_packages$'\n'$cluster_packages ;;
 *)
-    say "usage: scripts/setup.sh [build|check|browser]"
+    say "usage: scripts/setup.sh [build|check|browser|cluster]"
     exit 2
     ;;
 esac

@@ -51,6 +51,11 @@ void interrupt_keep_work(void)
     install(SIGUSR1);
 }
 
+bool interrupt_keeps_work(void)
+{
+    return atomic_load(&keeps_work) != 0;
+}
+
 bool interrupt_stops(void)
 {
     const int signal_number = atomic_load(&asked);

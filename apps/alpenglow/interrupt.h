@@ -12,6 +12,7 @@ void interrupt_defer(void);
 bool interrupt_asked(void);
 /// Makes SIGUSR1 a request to stop, as SIGTERM is, for a command that keeps its work.
 void interrupt_keep_work(void);
+bool interrupt_keeps_work(void);
 /// Whether the request was SIGTERM or SIGUSR1, to a command that keeps its work.
 bool interrupt_stops(void);
 

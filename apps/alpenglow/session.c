@@ -7,12 +7,29 @@
 
 #include <math.h>
 
+static session_ranks together;
+
+void session_set_ranks(const session_ranks *ranks)
+{
+    together = *ranks;
+}
+
+bool session_writes(void)
+{
+    return together.ranks == NULL || together.ranks->rank == 0;
+}
+
+int session_meet(int code)
+{
+    return together.meet != NULL ? together.meet(code) : code;
+}
+
 int session_open(session *s, const command_line *a)
 {
     const option_value *values = a->values;
-    bool quiet = values[OPTION_QUIET].given;
+    bool quiet = values[OPTION_QUIET].given || !session_writes();
     progress_mode mode = (progress_mode)values[OPTION_PROGRESS].choice;
-    bool unasked = quiet && !values[OPTION_PROGRESS].given;
+    bool unasked = !session_writes() || (quiet && !values[OPTION_PROGRESS].given);
     *s = (session){
         .messages = {.quiet = quiet},
         .progress = progress_start(unasked ? PROGRESS_OFF : mode),
@@ -26,6 +43,8 @@ int session_open(session *s, const command_line *a)
     options.read_outside = values[OPTION_ALLOW_OUTSIDE].given;
     options.log = messages_log;
     options.log_user = &s->messages;
+    options.ranks = together.ranks;
+    options.max_isa = together.max_isa;
     alp_result result = alp_context_create(&options, &s->context);
     return result == ALP_OK ? EXIT_DONE : failure(alp_result_name(result));
 }
@@ -103,16 +122,25 @@ int session_end(session *s, alp_result result)
     if (result == ALP_OK) {
         return EXIT_DONE;
     }
-    if (result == ALP_ERROR_CANCELLED) {
+    // Ranks that wait for others give up when they are told to stop.
+    const bool gave_up = together.ranks != NULL && result == ALP_ERROR_IO && interrupt_asked();
+    if (result == ALP_ERROR_CANCELLED || gave_up) {
         if (interrupt_stops()) {
-            failure("stopped; the checkpoint keeps the work, and the same command goes on from it");
+            failure(gave_up ? "told to stop, and another rank is gone; the checkpoint keeps the "
+                              "work, and the same command goes on from it with any number of ranks"
+                            : "stopped; the checkpoint keeps the work, and the same command goes "
+                              "on from it");
             return EXIT_STOPPED;
         }
         if (interrupt_asked()) {
             failure(s->has_written ? "interrupted" : "interrupted; nothing was written");
             return EXIT_INTERRUPTED;
         }
-        return session_judge_warnings(s);
+        if (together.ranks == NULL || has_failed_by_warning(s)) {
+            return session_judge_warnings(s);
+        }
+        failure(alp_context_message(s->context)); // another rank was told to stop
+        return interrupt_keeps_work() ? EXIT_STOPPED : EXIT_INTERRUPTED;
     }
     const char *text = alp_context_message(s->context);
     return failure(text[0] != '\0' ? text : alp_result_name(result));

@@ -19,6 +19,19 @@ typedef struct session {
     double load_seconds;
 } session;
 
+/// The processes that run a command together.
+typedef struct session_ranks {
+    const alp_ranks *ranks; // NULL: this one alone
+    const char *max_isa;    // highest instruction set that all have, or NULL: they have the same
+    int (*meet)(int code);  // after loading. @return code, or that of another rank, which failed
+} session_ranks;
+/// Sets them for all sessions that follow. Copied.
+void session_set_ranks(const session_ranks *ranks);
+/// Whether this process prints and writes files: rank 0 does.
+bool session_writes(void);
+/// Waits until all ranks have come so far. @return code, or that of another rank, which failed
+int session_meet(int code);
+
 /// Makes the context of the arguments. `s` must not move in memory.
 /// @return EXIT_DONE, or EXIT_FAILED after a message; session_close in both cases
 int session_open(session *s, const command_line *arguments);

@@ -287,6 +287,9 @@ typedef struct alp_bake_options {
     /// PROBES: NULL (default) = alp_probe_options_default(). Its lighting, bounces, one_sided, seed
     /// and progress are those of the bake; it has no layers.
     const alp_probe_options *probes;
+    /// Folder that keeps finished work, and the part of a shard. Default: none. It excludes
+    /// sampling.time_limit. With a folder, CANCELLED keeps the work so far, and the same bake goes
+    /// on from it. See checkpoint.h.
     alp_checkpoint_options checkpoint;
     alp_maps_format maps_format; ///< of maps_folder; else EXR
     /// Stages in order: "atlas" with its parts "adjacency", "clusters", "charts", "packing" and
@@ -374,9 +377,17 @@ typedef struct alp_bake_report {
     /// PATHS: paths of a texel. light_direct: samples of each light.
     uint32_t light_samples;
     unsigned maps;           ///< maps that were made: bits of alp_map
-    bool resumed;    ///< tiles of a checkpoint were read
+    /// Tiles of an earlier process were read from the checkpoint. False for a merge, and with ranks.
+    bool resumed;
     bool shard_done; ///< the tiles of a shard are in its folder; no output was written
-    uint64_t tiles_run, tiles_read; ///< tiles of loops; 0 without ranks and checkpoint
+    /// shard_done: share of seconds_total outside the loops that shards split, [0, 1]. Every shard
+    /// repeats this work: charts, receivers, direct light and all passes of the whole scene. It
+    /// rises when the shard resumes, for its own tiles are then read. Else 0.
+    double shard_repeated_share;
+    /// Tiles of the loops that trace rays, of a tenth to some milliseconds each: those that this process
+    /// ran, and those that it read from the checkpoint or received from other ranks. 0 without
+    /// checkpoint and ranks.
+    uint64_t tiles_run, tiles_read;
     uint32_t surfaces_baked; ///< number of scene.surfaces that got a map, see `only`
     uint32_t threads;
     uint64_t seed;

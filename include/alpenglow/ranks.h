@@ -17,8 +17,8 @@ ALP_BEGIN_DECLS
 typedef bool alp_receive_fn(void *receiver, uint32_t rank, const void *bytes, size_t size);
 
 /// The processes that work together, and this one's place among them. All of them make the same
-/// calls with the same scene and options, in the same order. All calls run on the thread that called
-/// the library.
+/// calls with the same scene and options, in the same order. All calls run on the thread that
+/// called the library.
 typedef struct alp_ranks {
     size_t struct_size; ///< set by the default
     uint32_t rank;      ///< of this process, in [0, count)
@@ -26,8 +26,7 @@ typedef struct alp_ranks {
     void *user;         ///< of the calls
 
     /// Adds `amount` to a counter that all ranks share. Counters begin at 0. A counter is a pair
-    /// (loop, part): `loop` counts up from 0, `part` is in [0, count). Counters of a loop are used
-    /// until the next exchange after it.
+    /// (loop, part): `loop` is the number of exchanges so far, `part` is in [0, count).
     /// @return the value before; UINT64_MAX: the call failed
     uint64_t (*claim)(void *user, uint64_t loop, uint32_t part, uint64_t amount);
 

@@ -14,6 +14,7 @@
 #include "bake/settings.h"
 
 #include "base/memory.h"
+#include "base/tiles/rank_calls.h"
 #include "base/tiles/tiles.h"
 #include "scene/sides.h"
 
@@ -56,6 +57,7 @@ static alp_result run(alpi_bake_job *job)
     ALP_TRY(alpi_bake_check(job));
     ALP_TRY(alpi_bake_check_lit(job));
     ALP_TRY(choose_sides(job));
+    ALP_TRY(alpi_bake_begin_ranks(job));
     ALP_TRY(alpi_bake_open_checkpoint(job));
     ALP_TRY(alpi_bake_choose(job));
     if (job->options.atlas.mode == ALP_ATLAS_VERTEX) {
@@ -102,6 +104,9 @@ static void finish_report(alpi_bake_job *job, double started)
     r->input_hash = job->scene->input_hash;
     r->peak_memory_bytes = alp_context_peak_memory(job->context);
     r->seconds_total = alpi_seconds() - started;
+    if (r->shard_done && r->seconds_total > 0.0) {
+        r->shard_repeated_share = 1.0 - tiles->split_seconds / r->seconds_total;
+    }
 }
 
 alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
@@ -127,12 +132,13 @@ alp_result alp_bake(const alp_scene *scene, const alp_bake_options *options,
     alpi_guard guard;
     alp_result result = alpi_bake_guard(&job, &guard);
     result = alpi_bake_end_budget(&job, result == ALP_OK ? run(&job) : result);
+    result = alpi_ranks_end(job.context, result);
     alpi_bake_unguard(&job, &guard);
     finish_report(&job, started);
     alpi_bake_close_checkpoint(&job, result == ALP_OK);
     alpi_set_watch(job.context, former);
     release(&job);
-    if (result != ALP_OK && folder_is_new) {
+    if (result != ALP_OK && folder_is_new && alpi_ranks_write(job.context)) {
         rmdir(folder); // only if empty: nothing was written is then true
     }
     if (result == ALP_OK && report != NULL) {

@@ -4,6 +4,7 @@
 #include "bake/checkpoint_settings.h"
 #include "bake/settings.h"
 #include "base/tiles/checkpoint.h"
+#include "base/tiles/rank_calls.h"
 
 #include <alpenglow/ranks.h>
 
@@ -98,6 +99,40 @@ void alpi_bake_note_error(alp_context *context, double error)
     }
 }
 
+// --- ranks ---------------------------------------------------------------------------------------
+
+/// Refuses options by which each rank would choose for itself.
+static alp_result check_ranks(const alpi_bake_job *job)
+{
+    const alp_bake_options *o = &job->options;
+    if (o->sampling.time_limit > 0.0 || o->sampling.keep_partial) {
+        return alpi_fail(job->context, INVALID,
+                         "bake: ranks have no time limit and keep no partial result; leave out "
+                         "time_limit and keep_partial (--time-limit, --keep-partial)");
+    }
+    if (o->checkpoint.shards > 0) {
+        return alpi_fail(job->context, INVALID,
+                         "bake: shards and ranks exclude each other; run a shard, and the merge, "
+                         "by the plain command, or leave out --shard");
+    }
+    return ALP_OK;
+}
+
+alp_result alpi_bake_begin_ranks(alpi_bake_job *job)
+{
+    bool began;
+    if (alpi_context_ranks(job->context) == NULL) {
+        return ALP_OK;
+    }
+    ALP_TRY(check_ranks(job));
+    alpi_bytes settings = alpi_bake_settings(job);
+    const alp_result result =
+        settings.failed ? ALP_ERROR_OUT_OF_MEMORY
+                        : alpi_ranks_begin(job->context, (const char *)settings.bytes, &began);
+    alpi_bytes_destroy(&settings);
+    return result;
+}
+
 // --- opening and closing -------------------------------------------------------------------------
 
 static alp_result open_files(alpi_bake_job *job, const char *settings)
@@ -128,7 +163,7 @@ alp_result alpi_bake_open_checkpoint(alpi_bake_job *job)
 {
     alpi_tiles *tiles = alpi_context_tiles(job->context);
     const alp_checkpoint_options *c = &job->options.checkpoint;
-    *tiles = (alpi_tiles){.claims = tiles->claims};
+    *tiles = (alpi_tiles){.claims = tiles->claims, .together = tiles->together};
     if (c->folder == NULL) {
         return ALP_OK;
     }
@@ -152,7 +187,7 @@ void alpi_bake_close_checkpoint(alpi_bake_job *job, bool complete)
     alpi_tiles *tiles = alpi_context_tiles(job->context);
     alpi_checkpoint_close(tiles->checkpoint, complete);
     alpi_release(job->context, tiles->missing);
-    *tiles = (alpi_tiles){.claims = tiles->claims};
+    *tiles = (alpi_tiles){.claims = tiles->claims, .together = tiles->together};
 }
 
 // --- shards --------------------------------------------------------------------------------------

@@ -7,6 +7,10 @@
 
 /// Refuses options that a checkpoint or a shard cannot keep.
 alp_result alpi_bake_check_checkpoint(const alpi_bake_job *job);
+/// Begins the bake with all ranks, if there are several. alpi_ranks_end must follow.
+/// @return ALP_OK; INVALID_ARGUMENT (options that ranks do not have); IO (a rank is gone, or has
+///         another scene or other options); OUT_OF_MEMORY
+alp_result alpi_bake_begin_ranks(alpi_bake_job *job);
 /// Opens the checkpoint of the options, if they have one.
 alp_result alpi_bake_open_checkpoint(alpi_bake_job *job);
 /// After the last gather. @param ends out: this process writes no outputs

@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "base/tiles/rank_calls.h"
 #include "formats/formats.h"
 #include "maps/vertex/vertex_detail.h"
 #include "transport/occlusion/occlusion.h"
@@ -235,7 +236,7 @@ static alp_result write_stage(alpi_bake_job *job)
 {
     const double started = alpi_seconds();
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
-    if (job->options.output != NULL) {
+    if (job->options.output != NULL && alpi_ranks_write(job->context)) {
         ALP_TRY(write_asset(job));
     }
     job->report.seconds_write = alpi_seconds() - started;

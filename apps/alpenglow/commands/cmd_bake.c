@@ -55,10 +55,10 @@ static int end_shard(const session *s, const command_line *a, const alp_bake_opt
                      const alp_bake_report *r)
 {
     if (!a->values[OPTION_QUIET].given) {
-        printf("shard      %u of %u is in %s, after %.1f s; 'alpenglow merge %s' writes the "
-               "result\n",
+        printf("shard      %u of %u is in %s, after %.1f s, %.0f %% of it for work that every shard "
+               "repeats; 'alpenglow merge %s' writes the result\n",
                o->checkpoint.shard, o->checkpoint.shards, o->checkpoint.folder, r->seconds_total,
-               o->checkpoint.folder);
+               100.0 * r->shard_repeated_share, o->checkpoint.folder);
     }
     return session_judge_warnings(s);
 }
@@ -85,8 +85,8 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
         work_print(stderr, &work);
     }
     alp_probe_options probes;
-    int code =
-        probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin, &probes);
+    int code = session_meet(
+        probe_options_read(a, &o->light.lighting, alp_scene_get_info(s->scene).origin, &probes));
     if (code != EXIT_DONE) {
         return code;
     }
@@ -97,7 +97,7 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
         alp_lightmap_destroy(lightmap);
         return end_shard(s, a, o, &told);
     }
-    if (code == EXIT_DONE) {
+    if (code == EXIT_DONE && session_writes()) {
         code = report(s, lightmap, &told, a);
     }
     const bool is_told = output_is_stdout(a->values[OPTION_JSON].text);

@@ -102,10 +102,10 @@ static int bake(session *s, const command_line *a, alp_probe_options *o)
     o->progress_user = s;
     interrupt_defer();
     alp_result result = alp_probes_bake(s->scene, o, &probes);
-    if (result == ALP_OK) { // first, for it may be refused
+    if (result == ALP_OK && session_writes()) { // first, for it may be refused
         result = export_probes(a, probes);
     }
-    if (result == ALP_OK) {
+    if (result == ALP_OK && session_writes()) {
         result = alp_probes_save(probes, output, a->values[OPTION_FORCE].given);
     }
     const int code = session_end(s, result);
@@ -146,6 +146,7 @@ int command_probes(const command_line *a)
         options.positions = (const float(*)[3])points.positions;
         options.position_count = points.count;
     }
+    code = code == EXIT_DONE ? session_meet(code) : code;
     code = code == EXIT_DONE ? bake(&s, a, &options) : code;
     alp_image_destroy(sky);
     points_clear(&points);

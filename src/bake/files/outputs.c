@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "base/tiles/rank_calls.h"
 #include "fields/probes/probes.h"
 #include "formats/formats.h"
 
@@ -147,6 +148,9 @@ static alp_result add_probes(const alpi_bake_job *job, alpi_file_set *files)
 alp_result alpi_bake_check_outputs(const alpi_bake_job *job, uint32_t pages)
 {
     const alp_bake_options *o = &job->options;
+    if (!alpi_ranks_write(job->context)) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_bake_check_output(job, pages));
     if (o->maps_folder != NULL) {
         ALP_TRY(alpi_folder_create(job->context, o->maps_folder));
@@ -363,6 +367,9 @@ static alp_result write_outputs(const alpi_bake_job *job)
 alp_result alpi_bake_write(alpi_bake_job *job)
 {
     const double started = alpi_seconds();
+    if (!alpi_ranks_write(job->context)) {
+        return ALP_OK;
+    }
     ALP_TRY(alpi_bake_begin_stage(job, "write"));
     ALP_TRY(alpi_bake_pack_images(job));
     ALP_TRY(alpi_bake_make_light_asset(job));

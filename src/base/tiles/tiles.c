@@ -3,17 +3,13 @@
 
 #include "base/memory.h"
 #include "base/tiles/checkpoint.h"
+#include "base/tiles/rank_calls.h"
 #include "base/tiles/tile_bytes.h"
 
 #include <alpenglow/ranks.h>
 
 #include <stdatomic.h>
 #include <string.h>
-
-alp_ranks alp_ranks_default(void)
-{
-    return (alp_ranks){.struct_size = sizeof(alp_ranks), .count = 1};
-}
 
 alpi_tile_kind alpi_tiles_set_kind(alp_context *context, alpi_tile_kind kind)
 {
@@ -36,10 +32,10 @@ typedef struct tile_run {
     const alpi_tile_loop *loop;
     alp_context *context;
     alpi_tiles *tiles;
-    const alp_ranks *ranks;   // NULL: one process
-    uint32_t count;           // tiles
-    _Atomic uint8_t *states;  // [count] of alpi_tile_state
-    const uint32_t *picked;   // tiles of the batch; NULL: all
+    const alp_ranks *ranks;  // NULL: one process
+    uint32_t count;          // tiles
+    _Atomic uint8_t *states; // [count] of alpi_tile_state
+    const uint32_t *picked;  // tiles of the batch; NULL: all
     alpi_task_progress progress;
 } tile_run;
 
@@ -49,7 +45,8 @@ typedef struct tile_run {
 static bool is_of_others(const tile_run *r, uint32_t tile)
 {
     const alpi_tiles *t = r->tiles;
-    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) && tile % t->shards != t->shard;
+    return t->kind == ALPI_TILES_SPLIT && alpi_tiles_are_shards(r->context) &&
+           tile % t->shards != t->shard;
 }
 
 static alp_result run_tiles(void *user, uint32_t begin, uint32_t end, uint32_t worker)
@@ -84,21 +81,19 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 
 // --- ranks ---------------------------------------------------------------------------------------
 
-// Tiles are dealt to ranks in turn, part p of n has tiles p, p + n, p + 2 n … Each rank claims tiles
-// of its own part first, then those that others have not claimed.
+// Part p of n is the tiles [count p / n, count (p + 1) / n), whatever their size: loops over the
+// same items, some of which fill a cache of rays, have the same parts. Each rank claims tiles of
+// its own part first, then those that others have not claimed.
 
-/// What a rank sends before its tiles.
-typedef struct rank_head {
-    uint64_t shape;
-    int32_t result; // alp_result of the loop
-    uint32_t loop;
-} rank_head;
+static uint32_t part_begin(const tile_run *r, uint32_t part)
+{
+    return (uint32_t)((uint64_t)r->count * part / r->ranks->count);
+}
 
 /// Claims tiles of a part and runs them, until none is left.
 static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t most)
 {
-    const uint32_t n = r->ranks->count;
-    const uint32_t size = r->count > part ? (r->count - part - 1) / n + 1 : 0;
+    const uint32_t begin = part_begin(r, part), size = part_begin(r, part + 1) - begin;
     for (;;) {
         const uint64_t first =
             size > 0 ? r->ranks->claim(r->ranks->user, r->tiles->claims, part, most) : size;
@@ -111,11 +106,11 @@ static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t
         }
         const uint32_t count = (uint32_t)(first + most < size ? most : size - first);
         for (uint32_t i = 0; i < count; i++) {
-            batch[i] = (uint32_t)(first + i) * n + part;
+            batch[i] = begin + (uint32_t)first + i;
         }
         r->picked = batch;
         ALP_TRY(alpi_parallel_for(r->context, count, 1, run_tiles, r, &r->progress));
-        r->progress.units_before += r->progress.units_per_item * count * n;
+        r->progress.units_before += r->progress.units_per_item * count * r->ranks->count;
     }
 }
 
@@ -143,62 +138,26 @@ static alp_result run_parts(tile_run *r)
     return result;
 }
 
-/// Takes the tiles of another rank.
-typedef struct receiving {
-    tile_run *run;
-    rank_head own;
-    alp_result result; // of the lowest rank that failed
-    bool differs;      // a rank runs another loop
-} receiving;
-
-static bool receive(void *receiver, uint32_t rank, const void *bytes, size_t size)
+/// Takes the marks and tiles of another rank.
+static bool take(void *user, uint32_t rank, const uint8_t *bytes, size_t size)
 {
-    receiving *r = receiver;
-    const alpi_tile_loop *loop = r->run->loop;
-    const uint8_t *at = bytes;
-    rank_head head;
+    const tile_run *r = user;
     (void)rank;
-    if (size < sizeof head) {
+    if (size < r->loop->mark_count) {
         return false;
     }
-    memcpy(&head, at, sizeof head);
-    if (head.shape != r->own.shape || head.loop != r->own.loop) {
-        r->differs = true;
-        return true;
+    for (size_t i = 0; i < r->loop->mark_count; i++) {
+        r->loop->marks[i] |= bytes[i];
     }
-    if (head.result != ALP_OK) {
-        r->result = r->result == ALP_OK ? (alp_result)head.result : r->result;
-        return true;
-    }
-    if (size - sizeof head < loop->mark_count) {
-        return false;
-    }
-    for (size_t i = 0; i < loop->mark_count; i++) {
-        loop->marks[i] |= at[sizeof head + i];
-    }
-    const size_t before = sizeof head + loop->mark_count;
-    return alpi_tile_unpack(loop, at + before, size - before, r->run->states);
+    return alpi_tile_unpack(r->loop, bytes + r->loop->mark_count, size - r->loop->mark_count,
+                            r->states);
 }
 
-static alp_result judge(const receiving *r, bool exchanged, alp_result own)
+static alp_result check_complete(const tile_run *r)
 {
-    const tile_run *run = r->run;
-    if (own != ALP_OK) {
-        return own;
-    }
-    if (!exchanged || r->differs) {
-        return alpi_fail(run->context, ALP_ERROR_IO,
-                         exchanged ? "the ranks run different bakes; start all of them with the "
-                                     "same command, file and version"
-                                   : "another rank is gone, or its tiles were damaged; run the "
-                                     "command again, --checkpoint goes on from what was written");
-    }
-    if (r->result != ALP_OK) {
-        return alpi_fail(run->context, r->result, "another rank stopped");
-    }
-    for (uint32_t i = 0; i < run->count; i++) {
-        if (run->states[i] == ALPI_TILE_OPEN) {
-            return alpi_fail(run->context, ALP_ERROR_IO,
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (r->states[i] == ALPI_TILE_OPEN) {
+            return alpi_fail(r->context, ALP_ERROR_IO,
                              "a rank reads tiles of the checkpoint that others cannot read; "
                              "--checkpoint needs a folder that all ranks share");
         }
@@ -209,22 +168,25 @@ static alp_result judge(const receiving *r, bool exchanged, alp_result own)
 /// Sends the tiles that this rank ran, with its result, and takes those of the others.
 static alp_result exchange(tile_run *r, alp_result result)
 {
+    static const alpi_rank_head room = {0};
     alpi_bytes bytes = alpi_bytes_create(r->context);
-    receiving in = {.run = r,
-                    .own = {alpi_tile_shape(r->loop), result, r->tiles->number}};
     uint32_t from = 0;
-    alpi_bytes_add(&bytes, &in.own, sizeof in.own);
-    alpi_bytes_add(&bytes, r->loop->marks, r->loop->mark_count);
-    (void)alpi_tile_pack(r->loop, r->states, 1u << ALPI_TILE_RAN | 1u << ALPI_TILE_KEPT, false,
-                         &from, SIZE_MAX, &bytes);
-    const rank_head failed = {in.own.shape, ALP_ERROR_OUT_OF_MEMORY, in.own.loop};
-    const void *sent = bytes.failed ? (const void *)&failed : bytes.bytes;
-    const bool good = r->ranks->exchange(r->ranks->user, sent,
-                                         bytes.failed ? sizeof failed : bytes.size, receive, &in);
-    result = bytes.failed && result == ALP_OK ? ALP_ERROR_OUT_OF_MEMORY : result;
+    if (result == ALP_OK) {
+        alpi_bytes_add(&bytes, &room, sizeof room);
+        alpi_bytes_add(&bytes, r->loop->marks, r->loop->mark_count);
+        (void)alpi_tile_pack(r->loop, r->states, 1u << ALPI_TILE_RAN | 1u << ALPI_TILE_KEPT, false,
+                             &from, SIZE_MAX, &bytes);
+    }
+    const alpi_rank_call call = {.shape = alpi_tile_shape(r->loop),
+                                 .number = r->tiles->number,
+                                 .result = bytes.failed ? ALP_ERROR_OUT_OF_MEMORY : result,
+                                 .bytes = bytes.bytes,
+                                 .size = bytes.size,
+                                 .take = take,
+                                 .user = r};
+    result = alpi_rank_exchange(r->context, &call);
     alpi_bytes_destroy(&bytes);
-    r->tiles->claims++;
-    return judge(&in, good, result);
+    return result == ALP_OK ? check_complete(r) : result;
 }
 
 // --- a loop --------------------------------------------------------------------------------------
@@ -260,6 +222,7 @@ static alp_result run(tile_run *r)
         (void)alpi_checkpoint_begin_loop(t->checkpoint, r->loop, t->number, r->states);
     }
     alp_result result = ALP_OK;
+    const double began = alpi_seconds();
     if (!find_missing(r)) {
         result = r->ranks != NULL
                      ? run_parts(r)
@@ -271,6 +234,7 @@ static alp_result run(tile_run *r)
     if (t->checkpoint != NULL) {
         alpi_checkpoint_end_loop(t->checkpoint);
     }
+    t->split_seconds += t->kind == ALPI_TILES_SPLIT ? alpi_seconds() - began : 0.0;
     count_tiles(r);
     return result;
 }
@@ -278,7 +242,7 @@ static alp_result run(tile_run *r)
 alp_result alpi_tile_loop_run(alp_context *context, const alpi_tile_loop *loop)
 {
     alpi_tiles *tiles = alpi_context_tiles(context);
-    const alp_ranks *ranks = alpi_context_ranks(context);
+    const alp_ranks *ranks = alpi_ranks_now(context);
     if (loop->count == 0) {
         return ALP_OK;
     }

@@ -32,12 +32,13 @@ typedef struct alpi_tile_loop {
     // with marks is never stored: a resumed process runs it again.
     uint8_t *marks;
     size_t mark_count;
-    // The body fills a cache that is neither stored nor sent. A resumed process runs the loop again.
+    // The body fills a cache that is neither stored nor sent. A resumed process runs the loop
+    // again.
     bool fills_cache;
 } alpi_tile_loop;
 
-/// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With ranks,
-/// each process runs some tiles and receives the others. A shard runs its own tiles alone of
+/// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With
+/// ranks, each process runs some tiles and receives the others. A shard runs its own tiles alone of
 /// loops that are SPLIT.
 /// @return ALP_OK; the failure of the lowest failing range; CANCELLED; IO (ranks that fail, or that
 ///         run different loops); OUT_OF_MEMORY
@@ -66,8 +67,10 @@ typedef struct alpi_tiles {
     bool merging;                       // tiles are read from shards; see missing
     uint32_t next[ALPI_TILE_KINDS];     // number of the next loop of each kind
     uint32_t number;                    // of the loop that runs, with its kind
-    uint64_t claims;                    // number of the next loop of all
+    bool together;                      // ranks began work, and share loops
+    uint64_t claims;                    // calls of ranks so far: the number of the next loop
     uint64_t ran, skipped, read;        // tiles of this bake so far
+    double split_seconds;               // a shard: in loops that are SPLIT
     bool *missing;                      // [shards] merging: shards whose tiles are not there
 } alpi_tiles;
 

@@ -3,8 +3,10 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tasks.h"
+#include "base/tiles/rank_calls.h"
 #include "base/warp.h"
 #include "fields/probes/probe_layers.h"
+#include "fields/probes/probe_ranks.h"
 #include "fields/probes/probes.h"
 #include "fields/truth.h"
 #include "maps/radiosity/solution.h"
@@ -495,7 +497,18 @@ alp_result alp_probes_bake(const alp_scene *scene, const alp_probe_options *opti
     if (scene == NULL || probes == NULL) {
         return ALP_ERROR_INVALID_ARGUMENT;
     }
-    return alpi_probes_bake(scene, options, NULL, probes);
+    bool began;
+    alp_result result = alpi_probes_begin_ranks(scene, options, &began);
+    *probes = NULL;
+    if (result == ALP_OK) {
+        result = alpi_probes_bake(scene, options, NULL, probes);
+    }
+    result = began ? alpi_ranks_end(scene->context, result) : result;
+    if (result != ALP_OK) {
+        alp_probes_destroy(*probes);
+        *probes = NULL;
+    }
+    return result;
 }
 
 alp_result alpi_probes_bake(const alp_scene *scene, const alp_probe_options *options,

@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "base/tasks.h"
+#include "base/tiles/tiles.h"
 #include "transport/paths/panes.h"
 
 #include <math.h>
@@ -111,5 +112,14 @@ static alp_result light_points(void *user, uint32_t begin, uint32_t end, uint32_
 alp_result alpi_sphere_lamps_add(const alpi_sphere_lamps *job, const alpi_task_progress *progress)
 {
     alpi_sphere_lamps own = *job;
-    return alpi_parallel_for(job->rays->context, job->count, 16, light_points, &own, progress);
+    const alpi_tile_output values = {
+        .data = job->values, .size = sizeof *job->values, .list = job->list, .count = job->count};
+    return alpi_tile_loop_run(job->rays->context, &(alpi_tile_loop){.name = "sphere-lamps",
+                                                                    .count = job->count,
+                                                                    .grain = 16,
+                                                                    .body = light_points,
+                                                                    .user = &own,
+                                                                    .progress = progress,
+                                                                    .outputs = &values,
+                                                                    .output_count = 1});
 }

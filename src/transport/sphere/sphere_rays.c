@@ -3,6 +3,7 @@
 
 #include "base/random.h"
 #include "base/tasks.h"
+#include "base/tiles/tiles.h"
 #include "transport/sphere/sphere_aimed.h"
 #include "transport/sphere/sphere_moments.h"
 
@@ -340,5 +341,18 @@ alp_result alpi_sphere_gather(const alpi_sphere_job *job, const alpi_task_progre
     alpi_task_progress counted = progress != NULL ? *progress : (alpi_task_progress){0};
     counted.units_per_item = (double)alpi_sphere_rays_count(r);
     counted.units_are_rays = true;
-    return alpi_parallel_for(r->context, job->count, 1, gather_points, &run, &counted);
+    const alpi_tile_output outputs[] = {
+        {.data = job->values, .size = sizeof *job->values, .list = job->list, .count = job->count},
+        {.data = job->moments,
+         .size = ALPI_SPHERE_MOMENTS * sizeof *job->moments,
+         .list = job->list,
+         .count = job->count}};
+    return alpi_tile_loop_run(r->context, &(alpi_tile_loop){.name = "sphere",
+                                                            .count = job->count,
+                                                            .grain = 1,
+                                                            .body = gather_points,
+                                                            .user = &run,
+                                                            .progress = &counted,
+                                                            .outputs = outputs,
+                                                            .output_count = 2});
 }
