@@ -51,7 +51,9 @@ static alp_result list_names(alpi_checkpoint_list *l, DIR *folder)
 static void drop_repeated(alpi_checkpoint_list *l)
 {
     size_t kept = 0;
-    qsort(l->names, l->count, sizeof *l->names, compare_names);
+    if (l->count > 1) {
+        qsort(l->names, l->count, sizeof *l->names, compare_names);
+    }
     for (size_t i = 0; i < l->count; i++) {
         if (kept > 0 && strcmp(l->names[kept - 1], l->names[i]) == 0) {
             alpi_release(l->context, l->names[i]);
