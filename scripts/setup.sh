@@ -4,7 +4,8 @@
 #
 #   scripts/setup.sh build    what the library, the command and the viewer need
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
-#   scripts/setup.sh browser  that, and a browser (some 500 MB), which opens what is written for it
+#   scripts/setup.sh browser  that, a browser (some 500 MB), which opens what is written for it, and
+#                             what the Python module needs
 #
 # Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
 # and, where there is a browser, what runs in it come from npm; without them some tests are skipped.
@@ -57,6 +58,13 @@ check_packages="
     zstd                zstd"
 browser_packages="
     chromium            chromium"
+python_packages="
+    python3-cffi        -
+    python3-numpy       -
+    python3-venv        -
+    python3-dev         -
+    python3-setuptools  -
+    python3-wheel       -"
 
 say() {
     printf 'setup: %s\n' "$*" >&2
@@ -119,7 +127,7 @@ install_npm() { # folder, what becomes of its tests without: what package-lock.j
 case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
-browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages ;;
+browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages$'\n'$python_packages ;;
 *)
     say "usage: scripts/setup.sh [build|check|browser]"
     exit 2

@@ -46,6 +46,7 @@ typedef struct alp_image_info {
 } alp_image_info;
 alp_result alp_image_create(alp_context *context, alp_image_info info, alp_image **image);
 void alp_image_destroy(alp_image *image);
+alp_image_info alp_image_get_info(const alp_image *image);
 uint8_t *alp_image_bytes(alp_image *image);
 float *alp_image_floats(alp_image *image);
 alp_result alp_image_load(alp_context *context, const char *path, alp_image **image);
@@ -182,7 +183,7 @@ typedef struct alp_bake_report {
     alp_atlas_info atlas;
     float ao_distance;
     uint32_t ao_samples;
-    uint64_t traced, interpolated;
+    uint64_t traced, interpolated, dropped;
     double ao_relative_error, ao_p99_error;
     double ao_mean, light_mean, light_relative_error, light_p99_error;
     uint32_t light_samples, light_passes, light_rounds;

@@ -13,10 +13,10 @@ the interpreter's lock, and end within 100 ms of Ctrl-C. Warnings of the library
 "alpenglow" of the module logging.
 """
 from .native import Cancelled, Context, Error, Progress, version
-from .image import save_image
+from .image import load_image, save_image
 from .lightmap import Lightmap
 from .probes import Probes
 from .scene import Mesh, Scene
 
 __all__ = ["Cancelled", "Context", "Error", "Lightmap", "Mesh", "Probes", "Progress", "Scene",
-           "save_image", "version"]
+           "load_image", "save_image", "version"]

@@ -33,12 +33,17 @@ def pointer(array):
     return ffi.NULL if array is None else ffi.from_buffer(_KINDS[array.dtype.type], array)
 
 
+class _Memory:
+    """Memory of the library, as numpy reads it."""
+
+    def __init__(self, address, shape, kind, owner):
+        self.owner = owner  # alive as long as the array
+        self.__array_interface__ = {"version": 3, "shape": shape, "typestr": numpy.dtype(kind).str,
+                                    "data": (int(ffi.cast("uintptr_t", address)), True)}
+
+
 def view(address, shape, kind, owner):
-    """Memory of the library as a read-only array, which keeps `owner` alive."""
-    count = int(numpy.prod(shape, dtype=numpy.int64))
-    if address == ffi.NULL or count == 0:
+    """Memory of the library as a read-only array, which keeps the handle `owner` alive."""
+    if address == ffi.NULL or 0 in shape:
         return numpy.zeros(shape, kind)
-    kept = ffi.gc(address, lambda _address, owner=owner: None)
-    array = numpy.frombuffer(ffi.buffer(kept, count * numpy.dtype(kind).itemsize), kind)
-    array.flags.writeable = False
-    return array.reshape(shape)
+    return numpy.asarray(_Memory(address, shape, kind, owner))

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Images in memory and in files."""
-import os
-
 import numpy
 
-from .arrays import given
+from .arrays import view
 from .native import Context, chars, ffi, lib
 
 
 def make(context, pixels):
-    """An alp_image of an array [height, width] or [height, width, 1 to 4]."""
+    """A handle of an image: an array [height, width] or [height, width, 1 to 4]."""
     pixels = numpy.asarray(pixels)
     pixels = pixels[:, :, None] if pixels.ndim == 2 else pixels
     if pixels.ndim != 3 or not 1 <= pixels.shape[2] <= 4:
@@ -20,17 +18,27 @@ def make(context, pixels):
         "width": pixels.shape[1], "height": pixels.shape[0], "channels": pixels.shape[2],
         "component": lib.ALP_COMPONENT_U8 if is_bytes else lib.ALP_COMPONENT_FLOAT})
     image = context.make("alp_image", lib.alp_image_destroy, (), lib.alp_image_create,
-                         context.pointer, info[0], ...)
-    target = lib.alp_image_bytes(image) if is_bytes else lib.alp_image_floats(image)
+                         context.handle, info[0], ...)
+    target = (lib.alp_image_bytes if is_bytes else lib.alp_image_floats)(image.pointer)
     source = numpy.ascontiguousarray(pixels, numpy.uint8 if is_bytes else numpy.float32)
     ffi.memmove(target, ffi.from_buffer(source), source.nbytes)
     return image
 
 
 def load(context, path):
-    """An alp_image of a file."""
+    """A handle of an image: a file."""
     return context.make("alp_image", lib.alp_image_destroy, (), lib.alp_image_load,
-                        context.pointer, chars(path), ...)
+                        context.handle, chars(path), ...)
+
+
+def load_image(path):
+    """Reads a .png or .jpg as uint8, a .exr or .hdr as float32: [height, width, channels], read-only."""
+    image = load(Context(threads=1), path)
+    info = lib.alp_image_get_info(image.pointer)
+    is_bytes = info.component == lib.ALP_COMPONENT_U8
+    address = (lib.alp_image_bytes if is_bytes else lib.alp_image_floats)(image.pointer)
+    return view(address, (info.height, info.width, info.channels),
+                numpy.uint8 if is_bytes else numpy.float32, image)
 
 
 def save_image(path, pixels, overwrite=False):

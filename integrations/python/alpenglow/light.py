@@ -24,7 +24,7 @@ def fill(lighting, context, sky, sun, sun_size, lamps):
     elif sky is not None:
         _fill_colors(lighting.sky, sky)
     if kept:
-        lighting.sky.kind, lighting.sky.image = lib.ALP_SKY_IMAGE, kept[0]
+        lighting.sky.kind, lighting.sky.image = lib.ALP_SKY_IMAGE, kept[0].pointer
     if sun is not None:
         _fill_sun(lighting.sun, sun)
     if sun_size is not None:

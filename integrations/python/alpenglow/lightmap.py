@@ -29,23 +29,23 @@ class Lightmap:
     "light_relative_error", "rays", "seconds_total", "atlas" and others.
     """
 
-    def __init__(self, pointer, report, maps):
-        self._pointer, self.report, self.maps = pointer, report, tuple(maps)
+    def __init__(self, handle, report, maps):
+        self.handle, self.report, self.maps = handle, report, tuple(maps)
 
     @property
     def page_count(self):
         """Number of pages; 1, unless texels_per_metre was given."""
-        return lib.alp_lightmap_page_count(self._pointer)
+        return lib.alp_lightmap_page_count(self.handle.pointer)
 
     def map(self, name, page=0):
         """[height, width, 4] float32 of a page: three values, and coverage (1 or 0)."""
         width, height = ffi.new("uint32_t *"), ffi.new("uint32_t *")
-        address = lib.alp_lightmap_map_page(self._pointer, choose(_MAPS, name, "map"), page, width,
+        address = lib.alp_lightmap_map_page(self.handle.pointer, choose(_MAPS, name, "map"), page, width,
                                             height)
         if address == ffi.NULL:
             raise KeyError(f"no page {page} of {name}: this bake made {self.page_count} pages of "
                            f"{', '.join(self.maps)}")
-        return view(address, (height[0], width[0], 4), numpy.float32, self._pointer)
+        return view(address, (height[0], width[0], 4), numpy.float32, self.handle)
 
     @property
     def ao(self):
@@ -65,16 +65,16 @@ class Lightmap:
     @property
     def uvs(self):
         """[triangles, 3, 2] texture coordinates of the corners in [0, 1]; v = 0 is row 0."""
-        atlas = lib.alp_lightmap_atlas(self._pointer)
+        atlas = lib.alp_lightmap_atlas(self.handle.pointer)
         count = self.report["scene"]["triangles"]
-        return view(lib.alp_atlas_corner_uvs(atlas), (count, 3, 2), numpy.float32, self._pointer)
+        return view(lib.alp_atlas_corner_uvs(atlas), (count, 3, 2), numpy.float32, self.handle)
 
     @property
-    def pages(self):
+    def triangle_pages(self):
         """[triangles] page of each, uint32; 4294967295 for triangles without a map."""
-        atlas = lib.alp_lightmap_atlas(self._pointer)
+        atlas = lib.alp_lightmap_atlas(self.handle.pointer)
         count = self.report["scene"]["triangles"]
-        return view(lib.alp_atlas_triangle_pages(atlas), (count,), numpy.uint32, self._pointer)
+        return view(lib.alp_atlas_triangle_pages(atlas), (count,), numpy.uint32, self.handle)
 
 
 def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=None, ao_distance=0.0,
@@ -115,8 +115,8 @@ def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=No
     kept += _set_outputs(options, maps, only, output, lightmap_as, maps_folder)
     options.overwrite, options.progress = overwrite, lib.alpenglow_progress
     report = ffi.new("alp_bake_report *")
-    made = scene.context.make("alp_lightmap", lib.alp_lightmap_destroy, (scene.pointer,),
-                              lib.alp_bake, scene.pointer, ffi.addressof(options), ..., report,
+    made = scene.context.make("alp_lightmap", lib.alp_lightmap_destroy, (scene.handle,),
+                              lib.alp_bake, scene.handle, ffi.addressof(options), ..., report,
                               progress=progress)
     return Lightmap(made, as_dict(report[0]), maps)
 
@@ -124,13 +124,16 @@ def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=No
 def _set_samples(options, samples, error, bounces):
     if samples is not None and error is not None:
         raise ValueError("samples and error: give one of them")
+    if error is not None and not error > 0.0:
+        raise ValueError(f"error: {error!r}; give a relative error, such as 0.01")
     if samples is not None:
         options.occlusion.samples = options.light.samples = samples
         return
     if error is not None:
         options.sampling.error, options.occlusion.samples = error, MOST_SAMPLES
     if bounces != 0:
-        options.light.error, options.light.bounded = error or 0.01, error is None
+        options.light.error = 0.01 if error is None else error
+        options.light.bounded = error is None # the scene may need too many rays for 1 %
 
 
 def _set_outputs(options, maps, only, output, lightmap_as, maps_folder):

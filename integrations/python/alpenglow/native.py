@@ -11,7 +11,6 @@ except ImportError as error:
     raise ImportError(f"alpenglow: {error}; install the library, then this module again "
                       "(pip install --no-build-isolation .)") from error
 
-NO_VALUE = ffi.NULL
 _log = logging.getLogger("alpenglow")
 _running = threading.local()  # .call: the call that this thread is in
 
@@ -83,9 +82,30 @@ def chars(string):
     return ffi.new("char[]", encoded)
 
 
-def owned(pointer, destroy, *parents):
-    """The pointer, destroyed when it is not used any more, and before its parents."""
-    return ffi.gc(pointer, lambda freed, kept=parents: destroy(freed))
+class Handle:
+    """An object of the library. It is destroyed after its handle and all objects made from it.
+
+    The collector of cycles may finalize a parent first, so uses are counted.
+    """
+
+    _lock = threading.RLock()
+
+    def __init__(self, pointer, destroy, *parents):
+        self.pointer, self._destroy, self._parents, self._uses = pointer, destroy, parents, 1
+        with self._lock:
+            for parent in parents:
+                parent._uses += 1
+
+    def _release(self):
+        with self._lock:
+            self._uses -= 1
+            unused = self._uses == 0
+        if unused:
+            self._destroy(self.pointer)
+            for parent in self._parents:
+                parent._release()
+
+    __del__ = _release
 
 
 def version():
@@ -120,37 +140,38 @@ class Context:
         if result != lib.ALP_OK:
             raise Error(text(lib.alp_result_name(result)),
                         f"no context with {threads} threads; give 0 to 1024")
-        self.pointer = owned(out[0], lib.alp_context_destroy)
+        self.handle = Handle(out[0], lib.alp_context_destroy)
         self._lock = threading.Lock()
 
     @property
     def threads(self):
         """Number of workers, at least 1."""
-        return lib.alp_context_worker_count(self.pointer)
+        return lib.alp_context_worker_count(self.handle.pointer)
 
     def call(self, function, *arguments, progress=None):
-        """Calls a function of the library that may fail."""
+        """Calls a function of the library that may fail. Handles stay alive until it returns."""
         if not self._lock.acquire(blocking=False):
             raise Error("INVALID_ARGUMENT", "the context is in another call; give each thread a "
                                             "Context and scenes of its own")
         before, call = getattr(_running, "call", None), _Call(progress)
         _running.call = call
         try:
-            result = function(*arguments)
+            result = function(*[argument.pointer if isinstance(argument, Handle) else argument
+                                for argument in arguments])
             self._raise(result, call.error)
         finally:
             _running.call = before
             self._lock.release()
 
     def make(self, kind, destroy, parents, function, *arguments, progress=None):
-        """Calls a function whose argument `...` is a pointer that it sets, and returns that."""
+        """Calls a function that sets its argument `...` to a new object. Returns the Handle."""
         out = ffi.new(kind + " **")
         arguments = [out if argument is ... else argument for argument in arguments]
         try:
             self.call(function, *arguments, progress=progress)
         finally:
             if out[0] != ffi.NULL:
-                made = owned(out[0], destroy, self.pointer, *parents)
+                made = Handle(out[0], destroy, self.handle, *parents)
         return made
 
     def _raise(self, result, error):
@@ -159,4 +180,4 @@ class Context:
         if result != lib.ALP_OK:
             code = text(lib.alp_result_name(result))
             kind = Cancelled if code == "CANCELLED" else Error
-            raise kind(code, text(lib.alp_context_message(self.pointer)))
+            raise kind(code, text(lib.alp_context_message(self.handle.pointer)))

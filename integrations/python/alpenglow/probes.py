@@ -14,10 +14,10 @@ _STATES = ("valid", "moved", "filled", "invalid")
 class Probes:
     """Light at points of space: Probes.bake or Probes.load, then sample."""
 
-    def __init__(self, pointer_, context, origin=None):
-        self.pointer, self.context = pointer_, context
-        self._field = context.make("alp_field", lib.alp_field_destroy, (pointer_,),
-                                   lib.alp_field_create_probes, pointer_, lib.ALP_LOOKUP_OURS,
+    def __init__(self, handle, context, origin=None):
+        self.handle, self.context = handle, context
+        self._field = context.make("alp_field", lib.alp_field_destroy, (handle,),
+                                   lib.alp_field_create_probes, handle, lib.ALP_LOOKUP_OURS,
                                    ffi.NULL if origin is None else ffi.new("double[3]", origin),
                                    ffi.NULL, ...)
 
@@ -47,8 +47,8 @@ class Probes:
             lib.flat_set_positions(ffi.addressof(options), address, len(places))
         kept = light.fill(options.lighting, scene.context, sky, sun, sun_size, lamps)
         options.progress = lib.alpenglow_progress
-        made = scene.context.make("alp_probes", lib.alp_probes_destroy, (scene.pointer,),
-                                  lib.alp_probes_bake, scene.pointer, ffi.addressof(options), ...,
+        made = scene.context.make("alp_probes", lib.alp_probes_destroy, (scene.handle,),
+                                  lib.alp_probes_bake, scene.handle, ffi.addressof(options), ...,
                                   progress=progress)
         del kept
         return cls(made, scene.context, scene.info["origin"])
@@ -58,11 +58,11 @@ class Probes:
         """Reads a .probes.json and its files. Positions are those of the world of the scene's file."""
         context = context or Context()
         return cls(context.make("alp_probes", lib.alp_probes_destroy, (), lib.alp_probes_load,
-                                context.pointer, chars(path), ...), context)
+                                context.handle, chars(path), ...), context)
 
     def save(self, path, overwrite=False):
         """Writes PATH.probes.json, and .ktx2 files beside it."""
-        self.context.call(lib.alp_probes_save, self.pointer, chars(path), overwrite)
+        self.context.call(lib.alp_probes_save, self.handle, chars(path), overwrite)
 
     def sample(self, points, normals):
         """Irradiance [n, 3] in W/m2 at points [n, 3] in metres with unit normals [n, 3].
@@ -73,14 +73,14 @@ class Probes:
         if len(points) != len(normals):
             raise ValueError(f"normals: {len(normals)} of {len(points)} points")
         irradiance = numpy.empty_like(points)
-        lib.flat_irradiance(self._field, len(points), pointer(points), pointer(normals),
+        lib.flat_irradiance(self._field.pointer, len(points), pointer(points), pointer(normals),
                             pointer(irradiance))
         return irradiance
 
     @property
     def info(self):
         """Counts and quality as a dict: "count", "size", "spacing", "error", "mean" and others."""
-        info = as_dict(lib.alp_probes_get_info(self.pointer))
+        info = as_dict(lib.alp_probes_get_info(self.handle.pointer))
         info["states"] = dict(zip(_STATES, info["states"]))
         return info
 
@@ -89,12 +89,12 @@ class Probes:
         """[n, 3] metres where probes were sampled, float64, in the world of the scene's file."""
         places = numpy.empty((self.info["count"], 3))
         for index, place in enumerate(places):
-            lib.alp_probes_position(self.pointer, index, ffi.from_buffer("double[3]", place))
+            lib.alp_probes_position(self.handle.pointer, index, ffi.from_buffer("double[3]", place))
         return places
 
     @property
     def coefficients(self):
         """[n, coefficients, 3] float32. SH: radiance, in order 1, y, z, x and so on. Cube: E."""
-        info = lib.alp_probes_get_info(self.pointer)
-        return view(lib.alp_probes_coefficients(self.pointer, 0xFFFFFFFF),
-                    (info.count, info.coefficients, 3), numpy.float32, self.pointer)
+        info = lib.alp_probes_get_info(self.handle.pointer)
+        return view(lib.alp_probes_coefficients(self.handle.pointer, 0xFFFFFFFF),
+                    (info.count, info.coefficients, 3), numpy.float32, self.handle)

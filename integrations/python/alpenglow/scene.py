@@ -43,15 +43,15 @@ class Mesh:
 class Scene:
     """Triangles in world space with materials and lights: Scene.load or Scene.from_arrays."""
 
-    def __init__(self, pointer_, context):
-        self.pointer, self.context = pointer_, context
+    def __init__(self, handle, context):
+        self.handle, self.context = handle, context
 
     @classmethod
     def load(cls, path, context=None):
         """Reads a .gltf, .glb, .obj, .dae or .zae, or makes a built-in scene ("builtin:cornell")."""
         context = context or Context()
         return cls(context.make("alp_scene", lib.alp_scene_destroy, (), lib.alp_scene_load,
-                                context.pointer, chars(path), ...), context)
+                                context.handle, chars(path), ...), context)
 
     @classmethod
     def from_arrays(cls, positions, triangles, normals=None, uvs=None, *, albedo=0.8, emission=0.0,
@@ -68,14 +68,14 @@ class Scene:
         structs = ffi.new("alp_mesh[]", len(meshes))
         kept = [mesh._fill(struct) for mesh, struct in zip(meshes, structs)]
         made = context.make("alp_scene", lib.alp_scene_destroy, (), lib.alp_scene_create_from_meshes,
-                            context.pointer, structs, len(meshes), ...)
+                            context.handle, structs, len(meshes), ...)
         del kept
         return cls(made, context)
 
     @property
     def info(self):
         """Counts, bounds in metres and origin, as a dict."""
-        return as_dict(lib.alp_scene_get_info(self.pointer))
+        return as_dict(lib.alp_scene_get_info(self.handle.pointer))
 
     @property
     def positions(self):
@@ -93,7 +93,7 @@ class Scene:
         return self._rows(lib.flat_triangles, "triangles", numpy.uint32)
 
     def _rows(self, read, count, kind):
-        return view(read(self.pointer), (self.info[count], 3), kind, self.pointer)
+        return view(read(self.handle.pointer), (self.info[count], 3), kind, self.handle)
 
     def bake(self, **options):
         """Bakes maps and returns a Lightmap: see alpenglow.lightmap.bake."""
