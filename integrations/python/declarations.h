@@ -203,7 +203,9 @@ void alp_field_destroy(alp_field *field);
 void flat_irradiance(const alp_field *field, uint32_t count, const float *positions,
                      const float *normals, float *irradiance);
 typedef struct alp_probes alp_probes;
-typedef enum alp_probe_basis { ALP_PROBE_SH9, ALP_PROBE_SH4, ALP_PROBE_AMBIENT_CUBE, ... } alp_probe_basis;
+typedef enum alp_probe_basis {
+    ALP_PROBE_SH9, ALP_PROBE_SH4, ALP_PROBE_AMBIENT_CUBE, ...
+} alp_probe_basis;
 typedef struct alp_probe_options {
     float spacing;
     float bounds_min[3], bounds_max[3];

@@ -23,7 +23,7 @@ def main(path):
         alpenglow.Mesh(*box((0, 0, 0), (4, 2.5, 3), inwards=True), albedo=(0.7, 0.6, 0.5), name="room"),
         alpenglow.Mesh(*box((1.5, 0, 1), (2.5, 0.8, 2)), albedo=(0.2, 0.3, 0.7), name="table"),
         alpenglow.Mesh(*box((1.5, 2.4, 1), (2.5, 2.45, 2)), albedo=0, emission=20, name="panel")])
-    lightmap = scene.bake(size=256, maps=("ao", "light"),
+    lightmap = scene.bake(size=128, maps=("ao", "light"),
                           progress=lambda p: print(f"{p.stage} {p.done}/{p.total}", file=sys.stderr))
     light, report = lightmap.irradiance, lightmap.report
     covered = lightmap.coverage > 0.5
