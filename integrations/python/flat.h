@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls and fields with rows of three floats, as flat arrays: cffi has no pointers to constant rows.
+// Calls and fields with rows of three floats, as flat arrays: cffi has no pointers to const rows.
 #include <alpenglow/alpenglow.h>
 
 static const float *flat_positions(const alp_scene *scene)

@@ -81,7 +81,7 @@ def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=No
          sky=None, sun=None, sun_size=None, lamps=None, atlas="auto", texels_per_metre=0.0,
          only=None, output=None, lightmap_as=None, maps_folder=None, overwrite=False, seed=0,
          progress=None):
-    """Bakes maps of a scene, and writes them if `output` or `maps_folder` is given.
+    """Bakes maps of a scene and returns a Lightmap. Writes files if a place for them is given.
 
     maps: words of "ao", "light", "bent", "obscurance" and "direction" (needs "light").
     size: side of a page in texels. texels_per_metre: 0 fits everything on one page.

@@ -95,6 +95,4 @@ class Scene:
     def _rows(self, read, count, kind):
         return view(read(self.handle.pointer), (self.info[count], 3), kind, self.handle)
 
-    def bake(self, **options):
-        """Bakes maps and returns a Lightmap: see alpenglow.lightmap.bake."""
-        return lightmap.bake(self, **options)
+    bake = lightmap.bake

@@ -58,7 +58,8 @@ grep -qE '^[0-9]+ texels, mean [0-9.]+ W/m2, error (0\.[0-9]|1\.0) %' bake.txt |
 # shellcheck disable=SC2016 # the backquotes are Markdown
 sed -n '/^```python$/,/^```$/p' "$module/README.md" | sed '/^```/d' >readme.py
 "$work/venv/bin/python" readme.py >readme.txt
-grep -qxF '(128, 128) (128, 128, 3)' readme.txt && [ -s square.glb ] || fail "README.md: $(cat readme.txt)"
+grep -qxF '(128, 128) (128, 128, 3)' readme.txt || fail "README.md: $(cat readme.txt)"
+[ -s square.glb ] || fail "README.md: no square.glb"
 
 # Without the library, so does the import.
 mv "$libraries" "$libraries.gone"
