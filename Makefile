@@ -47,7 +47,7 @@ test-fast: ## Run all but slow tests and integrations, which takes a minute or s
 	@$(call build,dev)
 	@scripts/test.py dev fast
 
-test-integrations: ## Run what needs Blender, a browser or Slurm ('scripts/setup.sh browser', 'cluster')
+test-integrations: ## Run what needs Blender, a browser, numpy or Slurm; see scripts/setup.sh
 	$(call setup,check)
 	@$(call build,dev)
 	@scripts/test.py dev integrations

@@ -4,7 +4,8 @@
 #
 #   scripts/setup.sh build    what the library, the command and the viewer need
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
-#   scripts/setup.sh browser  that, and a browser (some 500 MB), which opens what is written for it
+#   scripts/setup.sh browser  that, a browser (some 500 MB), which opens what is written for it, and
+#                             what the Python module needs
 #   scripts/setup.sh cluster  what check needs, MPI, and Slurm for tests (some 140 MB)
 #
 # Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
@@ -63,6 +64,13 @@ cluster_packages="
     openmpi-bin         mpirun
     slurm-wlm           -
     munge               -"
+python_packages="
+    python3-cffi        -
+    python3-numpy       -
+    python3-venv        -
+    python3-dev         -
+    python3-setuptools  -
+    python3-wheel       -"
 
 say() {
     printf 'setup: %s\n' "$*" >&2
@@ -125,8 +133,8 @@ install_npm() { # folder, what becomes of its tests without: what package-lock.j
 case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
-browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages ;;
 cluster) wanted=$build_packages$'\n'$check_packages$'\n'$cluster_packages ;;
+browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages$'\n'$python_packages ;;
 *)
     say "usage: scripts/setup.sh [build|check|browser|cluster]"
     exit 2

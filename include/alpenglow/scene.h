@@ -84,6 +84,7 @@ typedef struct alp_mesh {
     uint32_t triangle_count;
     float base_color[3]; ///< linear diffuse colour, [0, 1] (clamped with a warning)
     bool double_sided;
+    float emission[3]; ///< radiance that it emits, W·sr⁻¹·m⁻², ≥ 0 (clamped with a warning)
 } alp_mesh;
 
 /// Makes a scene from arrays, which are copied. `uvs` become the scene's second UV set, for

@@ -3,11 +3,14 @@
 
 #include "base/guard.h"
 #include "base/memory.h"
-#include "base/tasks.h"
+#include "base/tiles/tiles.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -222,12 +225,50 @@ static alp_result open_temporary(alpi_file_writer *writer)
     return ALP_ERROR_IO;
 }
 
+// --- leftovers -----------------------------------------------------------------------------------
+
+/// Whether a file is a temporary one of `name`, by a process of this machine that has ended.
+static bool is_leftover(const char *file, const char *name, size_t length)
+{
+    static const char ending[] = ".part-";
+    const size_t size = sizeof ending - 1;
+    if (strncmp(file, name, length) != 0 || strncmp(file + length, ending, size) != 0) {
+        return false;
+    }
+    char *end;
+    const long process = strtol(file + length + size, &end, 10);
+    return *end == '-' && process > 0 && process != (long)getpid() &&
+           kill((pid_t)process, 0) != 0 && errno == ESRCH;
+}
+
+/// Removes temporary files of the writer's path that a killed process left. Only a bake with a
+/// checkpoint may: no other process writes its outputs.
+static void remove_leftovers(const alpi_file_writer *writer)
+{
+    const char *name = alpi_path_name(writer->path);
+    char *path = alpi_path_folder(writer->context, writer->path);
+    DIR *folder = path != NULL ? opendir(path[0] != '\0' ? path : ".") : NULL;
+    for (struct dirent *e = folder != NULL ? readdir(folder) : NULL; e != NULL;
+         e = readdir(folder)) {
+        if (is_leftover(e->d_name, name, strlen(name))) {
+            (void)unlinkat(dirfd(folder), e->d_name, 0);
+        }
+    }
+    if (folder != NULL) {
+        closedir(folder);
+    }
+    alpi_release(writer->context, path);
+}
+
 alp_result alpi_file_open(alp_context *context, const char *path, bool overwrite,
                           alpi_file_writer *writer)
 {
     *writer = (alpi_file_writer){.context = context, .descriptor = -1, .overwrite = overwrite};
     ALP_TRY(alpi_file_check_writable(context, path, overwrite));
     alp_result result = alpi_path_follow(context, path, &writer->path);
+    if (result == ALP_OK && alpi_context_tiles(context)->checkpoint != NULL) {
+        remove_leftovers(writer);
+    }
     if (result == ALP_OK) {
         result = open_temporary(writer);
     }

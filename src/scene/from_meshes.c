@@ -131,6 +131,7 @@ static alp_result append_mesh(alp_scene *scene, const alp_mesh *mesh, uint32_t i
     *material = alpi_material_default();
     material->name = alpi_copy_string(scene->context, name);
     memcpy(material->base_color, mesh->base_color, sizeof mesh->base_color);
+    memcpy(material->emission, mesh->emission, sizeof mesh->emission);
     material->double_sided = mesh->double_sided;
     if (surface->name == NULL || material->name == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
@@ -152,6 +153,7 @@ static uint64_t hash_mesh(uint64_t hash, const alp_mesh *mesh)
     size_t vertices = mesh->vertex_count, triangles = mesh->triangle_count;
     hash = alpi_hash_bytes(hash, header, sizeof header);
     hash = hash_floats(hash, mesh->base_color, 3);
+    hash = hash_floats(hash, mesh->emission, 3);
     hash = hash_floats(hash, mesh->positions, 3 * vertices);
     hash = hash_floats(hash, mesh->normals, 3 * vertices);
     hash = hash_floats(hash, mesh->uvs, 2 * vertices);

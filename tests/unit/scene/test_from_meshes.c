@@ -26,6 +26,7 @@ static alp_mesh square(void)
 TEST_WITH_CONTEXT(arrays_arrive, 1)
 {
     alp_mesh meshes[2] = {square(), square()};
+    meshes[0].emission[1] = 3.0f;
     meshes[1].name = NULL;
     meshes[1].normals = NULL;
     meshes[1].uvs = NULL;
@@ -56,6 +57,8 @@ TEST_WITH_CONTEXT(arrays_arrive, 1)
 
     vec3 albedo = alpi_surface_albedo(scene, 0, 0.25f, 0.25f);
     ASSERT_NEAR(albedo.y, 0.25, 0.0);
+    ASSERT_NEAR(alp_scene_get_surface(scene, 0).emission[1], 3.0, 0.0);
+    ASSERT_NEAR(second.emission[1], 0.0, 0.0);
     vec2 uv = alpi_triangle_uv(scene, 0, 1, 0.0f, 1.0f);
     ASSERT_NEAR(uv.x, 1.0, 0.0);
     ASSERT_NEAR(uv.y, 1.0, 0.0);
@@ -69,7 +72,7 @@ TEST_WITH_CONTEXT(arrays_arrive, 1)
 
 TEST_WITH_CONTEXT(every_array_is_in_the_hash, 1)
 {
-    uint64_t hashes[6] = {0};
+    uint64_t hashes[7] = {0};
     float moved[4][3], tilted[4][3], shifted[4][2];
     memcpy(moved, SQUARE, sizeof moved);
     memcpy(tilted, UP, sizeof tilted);
@@ -78,13 +81,14 @@ TEST_WITH_CONTEXT(every_array_is_in_the_hash, 1)
     tilted[2][0] = 1e-6f;
     shifted[1][1] = 1e-6f;
     static const uint32_t other[2][3] = {{0, 1, 2}, {2, 3, 0}};
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 7; i++) {
         alp_mesh mesh = square();
         mesh.positions = i == 1 ? moved[0] : mesh.positions;
         mesh.normals = i == 2 ? tilted[0] : mesh.normals;
         mesh.uvs = i == 3 ? shifted[0] : mesh.uvs;
         mesh.indices = i == 4 ? other[0] : mesh.indices;
         mesh.base_color[0] = i == 5 ? 0.25f : mesh.base_color[0];
+        mesh.emission[2] = i == 6 ? 1.0f : 0.0f;
         alp_scene *scene = NULL;
         ASSERT_OK(context, alp_scene_create_from_meshes(context, &mesh, 1, &scene));
         hashes[i] = scene->input_hash;
