@@ -3,17 +3,18 @@
 """Replays recorded costs of tiles over many ranks, and prints the efficiency.
 
     alpenglow-bench record-tiles builtin:atrium costs.csv --light --error 1
-    scripts/replay_scale.py costs.csv [--texels 1e8] [--ranks 1,2,4] [--markdown]
+    scripts/replay_scale.py costs.csv [--texels 1e8] [--ranks 1,2,4] [--building 3]
 
-The tiles of each loop are dealt as src/base/tiles/tiles.c deals them: a rank claims batches of its
-own range, then of the ranges 1, 2, 4 … further on. A claim is a round trip to rank 0, which serves one claim at a time. A
-loop ends with an exchange: a ring passes the bytes of all ranks to all. A rank has one worker.
-The last column adds the steps between loops, which every rank repeats; --building N counts those
-before the first N loops (atlas, ray tracer, patches) as building, which is left out.
+The tiles of each loop are dealt as src/base/tiles/tiles.c deals them: a rank claims blocks of its
+own part, then of the parts 1, 2, 4 ... further on. A claim is a round trip to rank 0, which serves
+one claim at a time. A loop ends with an exchange: a ring passes the bytes of all ranks to all. A
+rank has one worker.
 
 The recorded map is smaller than the level. Each recorded tile stands for as many tiles in a row, so
-that ranges of ranks differ as regions of the map do; bytes grow alike. Efficiency is the time of one rank over N times
-that of N ranks, of the loops that trace rays, with their exchanges.
+that blocks differ as regions of the map do; bytes grow alike. Efficiency is the time of one rank
+over N times that of N ranks, of the loops that trace rays, with their exchanges. The last column
+adds the steps between loops, which every rank repeats. --building N counts those before the first N
+loops (atlas, ray tracer, patches) as building, which is left out.
 """
 import argparse
 import csv
@@ -23,22 +24,22 @@ from collections import defaultdict
 
 LATENCY, BANDWIDTH = 5e-6, 10e9  # seconds one way; bytes per second
 SERVICE = 1e-6                   # of rank 0 for a claim
-BATCHES = 32                     # of a rank's part, as in tiles.c
+BLOCKS = 128                     # of a part, as in tiles.c
 
 
 def read(path):
     """(first line, loops); a loop has the seconds of its tiles, its bytes, and seconds before it."""
-    tiles, ends = defaultdict(dict), {}
+    tiles, ends = defaultdict(list), {}
     with open(path, encoding="utf-8") as file:
         title = file.readline().strip("# \n")
         for row in csv.DictReader(file):
-            if row["tile"]:
-                tiles[int(row["loop"])][int(row["tile"])] = float(row["seconds"])
+            if row["block"]:
+                tiles[int(row["loop"])].append((int(row["block"]), float(row["seconds"])))
             else:
                 ends[int(row["loop"])] = (float(row["seconds"]), int(row["bytes"]))
     loops = []
     for loop, (before, size) in sorted(ends.items()):
-        seconds = [tiles[loop][tile] for tile in sorted(tiles[loop])]
+        seconds = [cost for _, cost in sorted(tiles[loop], key=lambda tile: tile[0])]
         loops.append((seconds, size, before))
     return title, loops
 
@@ -57,25 +58,24 @@ class Costs:
 
 def deal(costs, count, ranks):
     """Seconds from the begin of a loop to the end of its last tile, and the number of claims."""
-    most = max(1, count // ranks // BATCHES)
+    latency, service = (LATENCY, SERVICE) if ranks > 1 else (0.0, 0.0)
     steps = [0] + [1 << i for i in range(16) if 1 << i < ranks]
-    begins = [count * part // ranks for part in range(ranks + 1)]
-    done = begins[:-1]                                 # tiles of each part that are claimed
+    most = min(BLOCKS, BLOCKS * ranks // count + 1)
+    done = [0] * ranks                       # blocks of each part that are claimed
     ready = [(0.0, rank, 0) for rank in range(ranks)]  # time, rank, parts that it found empty
-    free, ended, claims = 0.0, 0.0, 0                  # when rank 0 can serve the next claim
-    heapq.heapify(ready)
+    free, ended, claims = 0.0, 0.0, 0        # free: when rank 0 can serve the next claim
     while ready:
         now, rank, visited = heapq.heappop(ready)
         part = (rank + steps[visited]) % ranks
-        if begins[part + 1] > begins[part]:  # else the rank knows that the part is empty
-            served = max(now + (LATENCY if ranks > 1 else 0.0), free)
-            free = served + (SERVICE if ranks > 1 else 0.0)
-            now = free + (LATENCY if ranks > 1 else 0.0)
-            claims += 1
-        if done[part] < begins[part + 1]:
-            last = min(done[part] + most, begins[part + 1])
-            now += costs.before(last) - costs.before(done[part])
-            done[part] = last
+        free = max(now + latency, free) + service
+        now = free + latency
+        claims += 1
+        if done[part] < BLOCKS:
+            for block in range(done[part], min(done[part] + most, BLOCKS)):
+                at = block * ranks + part
+                now += costs.before(count * (at + 1) // (BLOCKS * ranks))
+                now -= costs.before(count * at // (BLOCKS * ranks))
+            done[part] += most
         else:
             visited += 1
         if visited < len(steps):
