@@ -72,7 +72,7 @@ def deal(costs, count, ranks):
         claims += 1
         if done[part] < BLOCKS:
             for block in range(done[part], min(done[part] + most, BLOCKS)):
-                at = block * ranks + part
+                at = block * ranks + (part + block) % ranks
                 now += costs.before(count * (at + 1) // (BLOCKS * ranks))
                 now -= costs.before(count * at // (BLOCKS * ranks))
             done[part] += most
