@@ -38,7 +38,7 @@ static uint64_t claim(void *user, uint64_t loop, uint32_t part, uint64_t amount)
     const uint64_t first = r->claimed[part];
     r->claimed[part] += amount;
     r->loop = loop;
-    r->block = first * RANKS + (part + first) % RANKS;
+    r->block = first * RANKS + part; // about its place: rows turn
     r->began = bench_thread_seconds();
     return first;
 }

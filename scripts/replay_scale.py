@@ -56,6 +56,13 @@ class Costs:
         return self.times * (self.sums[whole] + (at - whole) * self.seconds[whole])
 
 
+def mix(x):
+    """alpi_hash32 of src/base/random.h."""
+    x = (x ^ x >> 16) * 0x7FEB352D & 0xFFFFFFFF
+    x = (x ^ x >> 15) * 0x846CA68B & 0xFFFFFFFF
+    return x ^ x >> 16
+
+
 def deal(costs, count, ranks):
     """Seconds from the begin of a loop to the end of its last tile, and the number of claims."""
     latency, service = (LATENCY, SERVICE) if ranks > 1 else (0.0, 0.0)
@@ -72,7 +79,7 @@ def deal(costs, count, ranks):
         claims += 1
         if done[part] < BLOCKS:
             for block in range(done[part], min(done[part] + most, BLOCKS)):
-                at = block * ranks + (part + block) % ranks
+                at = block * ranks + (part + (mix(block) * ranks >> 32)) % ranks
                 now += costs.before(count * (at + 1) // (BLOCKS * ranks))
                 now -= costs.before(count * at // (BLOCKS * ranks))
             done[part] += most

@@ -2,6 +2,7 @@
 #include "base/tiles/tiles.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "base/tiles/checkpoint.h"
 #include "base/tiles/rank_calls.h"
 #include "base/tiles/tile_bytes.h"
@@ -81,11 +82,11 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 
 // --- ranks ---------------------------------------------------------------------------------------
 
-// A loop is cut into BLOCKS rows of n blocks, for n ranks, whatever the size of its tiles. Part p
-// has block p + i, modulo n, of row i: parts cost about the same, also where only every other block
-// has a tile. Loops over the same items, some of which fill a cache of rays, have the same parts.
-// Each rank claims blocks of its own part first, then those of the parts 1, 2, 4 … further on.
-// scripts/replay_scale.py replays this.
+// A loop is cut into BLOCKS rows of n blocks, for n ranks, whatever the size of its tiles. Each
+// part has a block of every row, at a place that turns at random from row to row: parts cost about
+// the same, also where few blocks have a tile. Loops over the same items, some of which fill a
+// cache of rays, have the same parts. Each rank claims blocks of its own part first, then those of
+// the parts 1, 2, 4 … further on. scripts/replay_scale.py replays this.
 enum { BLOCKS = 128 };
 
 static uint32_t block_begin(const tile_run *r, uint64_t block)
@@ -100,7 +101,8 @@ static alp_result run_blocks(tile_run *r, uint32_t part, uint64_t first, uint64_
     const uint32_t n = r->ranks->count;
     uint32_t count = 0;
     for (uint64_t i = first; i < end; i++) {
-        const uint64_t block = i * n + (part + i) % n;
+        const uint64_t turn = (uint64_t)alpi_hash32((uint32_t)i) * n >> 32;
+        const uint64_t block = i * n + (part + turn) % n;
         const uint32_t last = block_begin(r, block + 1);
         for (uint32_t tile = block_begin(r, block); tile < last; tile++) {
             list[count++] = tile;
