@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Seconds of each tile of a bake, for scripts/replay_scale.py.
 //   alpenglow-bench record-tiles SCENE FILE.csv [--size N] [--samples N] [--error E] [--light]
-// The bake is rank 0 of two, whose other rank claims no tile. Its calls come before each batch of
-// tiles, after each tile and after each loop. One worker; CPU seconds, which other programs on the
-// machine hardly change.
+// The bake is rank 0 of two, whose other rank claims nothing. So it runs all tiles. Its calls come
+// before each batch of blocks, after each tile and after each loop. One worker; CPU seconds, which
+// other programs on the machine hardly change.
 #include "bench.h"
 
 #include <alpenglow/alpenglow.h>
@@ -17,11 +17,12 @@ enum { RANKS = 2, EXIT_USAGE = 2 };
 typedef struct recorder {
     FILE *file;
     bool in_loop;
-    uint64_t loop, next[RANKS]; // of the loop that runs, and the next tile of each part
-    uint64_t tile;              // that runs
-    double began;               // it, or the batch
-    double ended;               // the loop before
-    double between;             // seconds from that loop to this one
+    uint64_t loop;           // that runs
+    uint64_t claimed[RANKS]; // blocks of each part
+    uint64_t block;          // of the loop: the first that was claimed last
+    double began;            // the tile that runs
+    double ended;            // the loop before
+    double between;          // seconds from that loop to this one
 } recorder;
 
 // --- calls between ranks -------------------------------------------------------------------------
@@ -31,13 +32,13 @@ static uint64_t claim(void *user, uint64_t loop, uint32_t part, uint64_t amount)
     recorder *r = user;
     if (!r->in_loop) {
         r->between = bench_thread_seconds() - r->ended;
-        memset(r->next, 0, sizeof r->next);
+        memset(r->claimed, 0, sizeof r->claimed);
         r->in_loop = true;
     }
-    const uint64_t first = r->next[part];
-    r->next[part] += amount;
+    const uint64_t first = r->claimed[part];
+    r->claimed[part] += amount;
     r->loop = loop;
-    r->tile = first * RANKS + part;
+    r->block = first * RANKS + part; // about its place: rows turn
     r->began = bench_thread_seconds();
     return first;
 }
@@ -45,9 +46,8 @@ static uint64_t claim(void *user, uint64_t loop, uint32_t part, uint64_t amount)
 static void end_tile(void *user)
 {
     recorder *r = user;
-    fprintf(r->file, "%llu,%llu,%.9f,\n", (unsigned long long)r->loop, (unsigned long long)r->tile,
+    fprintf(r->file, "%llu,%llu,%.9f,\n", (unsigned long long)r->loop, (unsigned long long)r->block,
             bench_thread_seconds() - r->began);
-    r->tile += RANKS;
     r->began = bench_thread_seconds();
 }
 
@@ -140,7 +140,7 @@ static alp_result record(const wishes *w, recorder *r)
     alp_context_options options = alp_context_options_default();
     options.worker_count = 1;
     options.ranks = &ranks;
-    fprintf(r->file, "%*s\nloop,tile,seconds,bytes\n", ROOM, "");
+    fprintf(r->file, "%*s\nloop,block,seconds,bytes\n", ROOM, "");
     alp_result result = alp_context_create(&options, &context);
     if (result == ALP_OK) {
         result = bake(context, w, &report);

@@ -3,93 +3,89 @@
 """Replays recorded costs of tiles over many ranks, and prints the efficiency.
 
     alpenglow-bench record-tiles builtin:atrium costs.csv --light --error 1
-    scripts/replay_scale.py costs.csv [--texels 1e8] [--ranks 1,2,4] [--markdown]
+    scripts/replay_scale.py costs.csv [--texels 1e8] [--ranks 1,2,4] [--building 3]
 
-The tiles of each loop are dealt as src/base/tiles/tiles.c deals them: a rank claims batches of its
-own part, then of the others'. A claim is a round trip to rank 0, which serves one claim at a time. A
-loop ends with an exchange: a ring passes the bytes of all ranks to all. A rank has one worker.
+The tiles of each loop are dealt as src/base/tiles/tiles.c deals them: a rank claims blocks of its
+own part, then of the parts 1, 2, 4 ... further on. A claim is a round trip to rank 0, which serves
+one claim at a time. A loop ends with an exchange: a ring passes the bytes of all ranks to all. A
+rank has one worker.
 
-The recorded map is smaller than the level. Each loop gets as many times the tiles, in the recorded
-order over and over, and as many times the bytes. Efficiency is the time of one rank over N times
-that of N ranks, of the loops that trace rays, with their exchanges.
+The recorded map is smaller than the level. Each recorded tile stands for as many tiles in a row, so
+that blocks differ as regions of the map do; bytes grow alike. Efficiency is the time of one rank
+over N times that of N ranks, of the loops that trace rays, with their exchanges. The last column
+adds the steps between loops, which every rank repeats. --building N counts those before the first N
+loops (atlas, ray tracer, patches) as building, which is left out.
 """
 import argparse
 import csv
 import heapq
-import math
+import itertools
 from collections import defaultdict
 
 LATENCY, BANDWIDTH = 5e-6, 10e9  # seconds one way; bytes per second
 SERVICE = 1e-6                   # of rank 0 for a claim
-BATCHES = 32                     # of a rank's part, as in tiles.c
+BLOCKS = 128                     # of a part, as in tiles.c
 
 
 def read(path):
     """(first line, loops); a loop has the seconds of its tiles, its bytes, and seconds before it."""
-    tiles, ends = defaultdict(dict), {}
+    tiles, ends = defaultdict(list), {}
     with open(path, encoding="utf-8") as file:
         title = file.readline().strip("# \n")
         for row in csv.DictReader(file):
-            if row["tile"]:
-                tiles[int(row["loop"])][int(row["tile"])] = float(row["seconds"])
+            if row["block"]:
+                tiles[int(row["loop"])].append((int(row["block"]), float(row["seconds"])))
             else:
                 ends[int(row["loop"])] = (float(row["seconds"]), int(row["bytes"]))
     loops = []
     for loop, (before, size) in sorted(ends.items()):
-        seconds = [tiles[loop][tile] for tile in sorted(tiles[loop])]
+        seconds = [cost for _, cost in sorted(tiles[loop], key=lambda tile: tile[0])]
         loops.append((seconds, size, before))
     return title, loops
 
 
 class Costs:
-    """Sums of costs of tiles p, p + N, p + 2 N ..., whose recorded costs repeat."""
+    """Sums of costs of tiles. Each recorded tile stands for `times` tiles in a row."""
 
-    def __init__(self, seconds, stride):
-        period = len(seconds)
-        self.cycles = math.gcd(stride, period)
-        self.length = period // self.cycles
-        self.places = [0] * period
-        self.sums = []
-        for cycle in range(self.cycles):
-            sums, at = [0.0], cycle
-            for place in range(self.length):
-                self.places[at] = place
-                sums.append(sums[-1] + seconds[at])
-                at = (at + stride) % period
-            self.sums.append(sums)
+    def __init__(self, seconds, times):
+        self.sums, self.seconds, self.times = [0.0, *itertools.accumulate(seconds)], seconds, times
 
-    def before(self, part, tile):
-        """Of the tiles of a part before its `tile`, and a constant."""
-        at = part % len(self.places)
-        turns, rest = divmod(self.places[at] + tile, self.length)
-        sums = self.sums[at % self.cycles]
-        return turns * sums[-1] + sums[rest]
+    def before(self, tile):
+        at = tile / self.times
+        whole = min(int(at), len(self.seconds) - 1)
+        return self.times * (self.sums[whole] + (at - whole) * self.seconds[whole])
 
 
-def deal(seconds, count, ranks):
+def mix(x):
+    """alpi_hash32 of src/base/random.h."""
+    x = (x ^ x >> 16) * 0x7FEB352D & 0xFFFFFFFF
+    x = (x ^ x >> 15) * 0x846CA68B & 0xFFFFFFFF
+    return x ^ x >> 16
+
+
+def deal(costs, count, ranks):
     """Seconds from the begin of a loop to the end of its last tile, and the number of claims."""
-    most = max(1, count // ranks // BATCHES)
-    costs = Costs(seconds, ranks)
-    sizes = [max(0, (count - part - 1) // ranks + 1) for part in range(ranks)]
-    done = [0] * ranks                                 # tiles of each part that are claimed
+    latency, service = (LATENCY, SERVICE) if ranks > 1 else (0.0, 0.0)
+    steps = [0] + [1 << i for i in range(16) if 1 << i < ranks]
+    most = min(BLOCKS, BLOCKS * ranks // count + 1)
+    done = [0] * ranks                       # blocks of each part that are claimed
     ready = [(0.0, rank, 0) for rank in range(ranks)]  # time, rank, parts that it found empty
-    free, ended, claims = 0.0, 0.0, 0                  # when rank 0 can serve the next claim
-    heapq.heapify(ready)
+    free, ended, claims = 0.0, 0.0, 0        # free: when rank 0 can serve the next claim
     while ready:
         now, rank, visited = heapq.heappop(ready)
-        part = (rank + visited) % ranks
-        if sizes[part] > 0:  # else the rank knows that the part is empty
-            served = max(now + (LATENCY if ranks > 1 else 0.0), free)
-            free = served + (SERVICE if ranks > 1 else 0.0)
-            now = free + (LATENCY if ranks > 1 else 0.0)
-            claims += 1
-        if done[part] < sizes[part]:
-            last = min(done[part] + most, sizes[part])
-            now += costs.before(part, last) - costs.before(part, done[part])
-            done[part] = last
+        part = (rank + steps[visited]) % ranks
+        free = max(now + latency, free) + service
+        now = free + latency
+        claims += 1
+        if done[part] < BLOCKS:
+            for block in range(done[part], min(done[part] + most, BLOCKS)):
+                at = block * ranks + (part + (mix(block) * ranks >> 32)) % ranks
+                now += costs.before(count * (at + 1) // (BLOCKS * ranks))
+                now -= costs.before(count * at // (BLOCKS * ranks))
+            done[part] += most
         else:
             visited += 1
-        if visited < ranks:
+        if visited < len(steps):
             heapq.heappush(ready, (now, rank, visited))
         ended = max(ended, now)
     return ended, claims
@@ -106,11 +102,10 @@ def replay(loops, factor, ranks):
     claims = 0
     for seconds, size, _ in loops:
         count = max(1, round(len(seconds) * factor))
-        whole, rest = divmod(count, len(seconds))
-        total = whole * sum(seconds) + sum(seconds[:rest])
-        span, calls = deal(seconds, count, ranks)
-        work += total / ranks
-        wait += span - total / ranks
+        costs = Costs(seconds, count / len(seconds))
+        span, calls = deal(costs, count, ranks)
+        work += costs.before(count) / ranks
+        wait += span - costs.before(count) / ranks
         sent += exchange(size * factor, ranks)
         claims += calls
     return work, wait, sent, claims
@@ -120,24 +115,29 @@ def main():
     parser = argparse.ArgumentParser(description="Replays recorded costs of tiles over ranks.")
     parser.add_argument("costs")
     parser.add_argument("--texels", type=float, default=1e8)
+    parser.add_argument("--building", type=int, default=3)
     parser.add_argument("--ranks", default="1,2,4,8,16,32,64,128,256,512,1024")
     arguments = parser.parse_args()
     title, loops = read(arguments.costs)
     texels = float(title.split("texels ")[1].split(",")[0])
     factor = arguments.texels / texels
     tiles = sum(len(loop[0]) for loop in loops)
+    before = [loop[2] for loop in loops]
     print(f"{title}; {len(loops)} loops, {tiles} tiles, {sum(sum(l[0]) for l in loops):.1f} s in "
-          f"loops, {sum(l[2] for l in loops):.1f} s between them, "
+          f"loops; {sum(before[:arguments.building]):.2f} s of building, "
+          f"{sum(before[arguments.building:]):.2f} s in steps between loops; "
           f"{sum(l[1] for l in loops) / texels:.0f} bytes per texel sent")
     print(f"replayed for {arguments.texels:.3g} texels\n")
-    print("| ranks | tracing, s | waiting, s | exchange, s | claims | efficiency |")
-    print("|--:|--:|--:|--:|--:|--:|")
+    print("| ranks | tracing, s | waiting, s | exchange, s | claims | efficiency | with steps |")
+    print("|--:|--:|--:|--:|--:|--:|--:|")
+    steps = factor * sum(loop[2] for loop in loops[arguments.building:])
     alone = None
     for ranks in map(int, arguments.ranks.split(",")):
         work, wait, sent, claims = replay(loops, factor, ranks)
         alone = work + wait if alone is None else alone
         print(f"| {ranks} | {work:.1f} | {wait:.2f} | {sent:.2f} | {claims} "
-              f"| {alone / ranks / (work + wait + sent):.3f} |", flush=True)
+              f"| {alone / ranks / (work + wait + sent):.3f} "
+              f"| {(alone + steps) / ranks / (work + wait + sent + steps):.3f} |", flush=True)
 
 
 if __name__ == "__main__":

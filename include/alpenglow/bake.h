@@ -376,17 +376,18 @@ typedef struct alp_bake_report {
     /// ALP_MAP_LIGHT: rays of a texel that gathered, without the extra rays of the worst texels.
     /// PATHS: paths of a texel. light_direct: samples of each light.
     uint32_t light_samples;
-    unsigned maps;           ///< maps that were made: bits of alp_map
-    /// Tiles of an earlier process were read from the checkpoint. False for a merge, and with ranks.
+    unsigned maps; ///< maps that were made: bits of alp_map
+    /// Tiles of an earlier process were read from the checkpoint. False for a merge, and with
+    /// ranks.
     bool resumed;
     bool shard_done; ///< the tiles of a shard are in its folder; no output was written
     /// shard_done: share of seconds_total outside the loops that shards split, [0, 1]. Every shard
     /// repeats this work: charts, receivers, direct light and all passes of the whole scene. It
     /// rises when the shard resumes, for its own tiles are then read. Else 0.
     double shard_repeated_share;
-    /// Tiles of the loops that trace rays, of a tenth to some milliseconds each: those that this process
-    /// ran, and those that it read from the checkpoint or received from other ranks. 0 without
-    /// checkpoint and ranks.
+    /// Tiles of the loops that trace rays, of a tenth to some milliseconds each: those that this
+    /// process ran, and those that it read from the checkpoint or received from other ranks. 0
+    /// without checkpoint and ranks.
     uint64_t tiles_run, tiles_read;
     uint32_t surfaces_baked; ///< number of scene.surfaces that got a map, see `only`
     uint32_t threads;

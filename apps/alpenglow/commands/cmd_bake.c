@@ -55,10 +55,11 @@ static int end_shard(const session *s, const command_line *a, const alp_bake_opt
                      const alp_bake_report *r)
 {
     if (!a->values[OPTION_QUIET].given) {
-        printf("shard      %u of %u is in %s, after %.1f s, %.0f %% of it for work that every shard "
-               "repeats; 'alpenglow merge %s' writes the result\n",
-               o->checkpoint.shard, o->checkpoint.shards, o->checkpoint.folder, r->seconds_total,
-               100.0 * r->shard_repeated_share, o->checkpoint.folder);
+        printf(
+            "shard      %u of %u is in %s, after %.1f s, %.0f %% of it for work that every shard "
+            "repeats; 'alpenglow merge %s' writes the result\n",
+            o->checkpoint.shard, o->checkpoint.shards, o->checkpoint.folder, r->seconds_total,
+            100.0 * r->shard_repeated_share, o->checkpoint.folder);
     }
     return session_judge_warnings(s);
 }

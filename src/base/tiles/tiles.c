@@ -2,6 +2,7 @@
 #include "base/tiles/tiles.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 #include "base/tiles/checkpoint.h"
 #include "base/tiles/rank_calls.h"
 #include "base/tiles/tile_bytes.h"
@@ -81,60 +82,77 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 
 // --- ranks ---------------------------------------------------------------------------------------
 
-// Part p of n is the tiles [count p / n, count (p + 1) / n), whatever their size: loops over the
-// same items, some of which fill a cache of rays, have the same parts. Each rank claims tiles of
-// its own part first, then those that others have not claimed.
+// A loop is cut into BLOCKS rows of n blocks, for n ranks, whatever the size of its tiles. Each
+// part has a block of every row, at a place that turns at random from row to row: parts cost about
+// the same, also where few blocks have a tile. Loops over the same items, some of which fill a
+// cache of rays, have the same parts. Each rank claims blocks of its own part first, then those of
+// the parts 1, 2, 4 … further on. scripts/replay_scale.py replays this.
+enum { BLOCKS = 128 };
 
-static uint32_t part_begin(const tile_run *r, uint32_t part)
+static uint32_t block_begin(const tile_run *r, uint64_t block)
 {
-    return (uint32_t)((uint64_t)r->count * part / r->ranks->count);
+    return (uint32_t)(r->count * block / ((uint64_t)BLOCKS * r->ranks->count));
 }
 
-/// Claims tiles of a part and runs them, until none is left.
-static alp_result run_part(tile_run *r, uint32_t part, uint32_t *batch, uint32_t most)
+/// Runs some blocks of a part. @param list room for their tiles
+static alp_result run_blocks(tile_run *r, uint32_t part, uint64_t first, uint64_t end,
+                             uint32_t *list)
 {
-    const uint32_t begin = part_begin(r, part), size = part_begin(r, part + 1) - begin;
+    const uint32_t n = r->ranks->count;
+    uint32_t count = 0;
+    for (uint64_t i = first; i < end; i++) {
+        const uint64_t turn = (uint64_t)alpi_hash32((uint32_t)i) * n >> 32;
+        const uint64_t block = i * n + (part + turn) % n;
+        const uint32_t last = block_begin(r, block + 1);
+        for (uint32_t tile = block_begin(r, block); tile < last; tile++) {
+            list[count++] = tile;
+        }
+    }
+    r->picked = list;
+    ALP_TRY(alpi_parallel_for(r->context, count, 1, run_tiles, r, &r->progress));
+    r->progress.units_before += r->progress.units_per_item * count * n;
+    return ALP_OK;
+}
+
+/// Claims blocks of a part, `most` at once, and runs them, until none is left.
+static alp_result run_part(tile_run *r, uint32_t part, uint32_t most, uint32_t *list)
+{
     for (;;) {
-        const uint64_t first =
-            size > 0 ? r->ranks->claim(r->ranks->user, r->tiles->claims, part, most) : size;
+        const uint64_t first = r->ranks->claim(r->ranks->user, r->tiles->claims, part, most);
         if (first == UINT64_MAX) {
             return alpi_fail(r->context, ALP_ERROR_IO, "rank %u: another rank cannot be reached",
                              r->ranks->rank);
         }
-        if (first >= size) {
+        if (first >= BLOCKS) {
             return ALP_OK;
         }
-        const uint32_t count = (uint32_t)(first + most < size ? most : size - first);
-        for (uint32_t i = 0; i < count; i++) {
-            batch[i] = begin + (uint32_t)first + i;
-        }
-        r->picked = batch;
-        ALP_TRY(alpi_parallel_for(r->context, count, 1, run_tiles, r, &r->progress));
-        r->progress.units_before += r->progress.units_per_item * count * r->ranks->count;
+        const uint64_t end = first + most < BLOCKS ? first + most : BLOCKS;
+        ALP_TRY(run_blocks(r, part, first, end, list));
     }
 }
 
-/// Tiles claimed at once: enough for all workers, and few beside the rank's share.
+/// Blocks claimed at once: enough tiles for all workers.
 static uint32_t batch_size(const tile_run *r)
 {
-    enum { BATCHES = 32 };
     const uint32_t workers = alp_context_worker_count(r->context);
-    const uint32_t share = r->count / r->ranks->count / BATCHES;
-    return share > workers ? share / workers * workers : workers;
+    const uint64_t wanted = workers > 1 ? 4 * (uint64_t)workers : 1;
+    const uint64_t blocks = wanted * BLOCKS * r->ranks->count / r->count + 1;
+    return (uint32_t)(blocks < BLOCKS ? blocks : BLOCKS);
 }
 
 static alp_result run_parts(tile_run *r)
 {
-    const uint32_t n = r->ranks->count, most = batch_size(r);
-    uint32_t *batch = ALPI_NEW(r->context, uint32_t, most);
-    alp_result result = batch != NULL ? ALP_OK : ALP_ERROR_OUT_OF_MEMORY;
-    for (uint32_t i = 0; i < n && result == ALP_OK; i++) {
-        result = run_part(r, (r->ranks->rank + i) % n, batch, most);
+    const uint32_t n = r->ranks->count, own = r->ranks->rank, most = batch_size(r);
+    const uint32_t room = most * (r->count / BLOCKS / n + 1);
+    uint32_t *list = ALPI_NEW(r->context, uint32_t, room);
+    alp_result result = list != NULL ? run_part(r, own, most, list) : ALP_ERROR_OUT_OF_MEMORY;
+    for (uint64_t step = 1; step < n && result == ALP_OK; step *= 2) {
+        result = run_part(r, (uint32_t)((own + step) % n), most, list);
     }
     for (uint32_t i = 0; i < n && result != ALP_OK; i++) { // leaves none to the others
         (void)r->ranks->claim(r->ranks->user, r->tiles->claims, i, UINT32_MAX);
     }
-    alpi_release(r->context, batch);
+    alpi_release(r->context, list);
     return result;
 }
 
