@@ -8,8 +8,8 @@
 ALP_BEGIN_DECLS
 
 /// The checkpoint of a bake. Finished work is appended to files of a folder. The same bake, run
-/// again with the same folder, reads it and goes on; its result has the bits of an undisturbed bake.
-/// A process that is killed loses the work since the last write, and nothing else.
+/// again with the same folder, reads it and goes on; its result has the bits of an undisturbed
+/// bake. A process that is killed loses the work since the last write, and nothing else.
 typedef struct alp_checkpoint_options {
     size_t struct_size;
     const char *folder; ///< made if missing; NULL (default): none
@@ -20,27 +20,27 @@ typedef struct alp_checkpoint_options {
     const char *restart;
 
     /// Shards: `shards` processes each do a part of the work, without a word between them. This one
-    /// is number `shard`, in [1, shards]; 0 (default): the whole bake. A shard gathers its own tiles
-    /// of the map, leaves them in the folder, and writes no outputs. Needs a folder, a fixed number
-    /// of samples, and sampling.accuracy ALP_ADAPTIVE_OFF. Light: each shard solves the bounces of
-    /// the whole scene.
+    /// is number `shard`, in [1, shards]; 0 (default): the whole bake. A shard gathers its own
+    /// tiles of the map, leaves them in the folder, and writes no outputs. Needs a folder, a fixed
+    /// number of samples, and sampling.accuracy ALP_ADAPTIVE_OFF. Light: each shard solves the
+    /// bounces of the whole scene.
     uint32_t shard, shards;
-    /// Merge: reads the tiles of all `shards` shards instead of tracing rays, and writes the outputs
-    /// of the bake. Missing tiles are INVALID_DATA: the message lists the shards.
+    /// Merge: reads the tiles of all `shards` shards instead of tracing rays, and writes the
+    /// outputs of the bake. Missing tiles are INVALID_DATA: the message lists the shards.
     bool merge;
 } alp_checkpoint_options;
 ALP_API alp_checkpoint_options alp_checkpoint_options_default(void);
 
 /// The state of one process of a bake, as its folder keeps it.
 typedef struct alp_checkpoint_process {
-    const char *name;  ///< "bake", "rank-3" or "shard-2"
-    const char *phase; ///< "running" (also after a kill), "stopped" or "complete"
-    const char *stage; ///< of the bake
-    uint64_t done, total; ///< units of the stage
-    double seconds;       ///< since the process began
-    double seconds_left;  ///< of the stage, at the last write; negative: unknown
-    double error;         ///< stated so far, relative; NaN: unknown
-    uint64_t written;     ///< seconds since 1970 of the last write
+    const char *name;       ///< "bake", "rank-3" or "shard-2"
+    const char *phase;      ///< "running" (also after a kill), "stopped" or "complete"
+    const char *stage;      ///< of the bake
+    uint64_t done, total;   ///< units of the stage
+    double seconds;         ///< since the process began
+    double seconds_left;    ///< of the stage, at the last write; negative: unknown
+    double error;           ///< stated so far, relative; NaN: unknown
+    uint64_t written;       ///< seconds since 1970 of the last write
     uint32_t shard, shards; ///< this one, from 1, of so many; both 0: no shard
     const char *restart;    ///< see alp_checkpoint_options
 } alp_checkpoint_process;

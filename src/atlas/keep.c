@@ -214,8 +214,8 @@ static void warn_of_few(const alp_atlas *atlas, const fault_list *list)
               "each other's values there; use --atlas charts for "
               "maps without overlaps",
               list->total, list->total == 1 ? " overlaps" : "s overlap",
-              alpi_scene_second_set(scene), shared_percent(atlas),
-              list->text, list->count > NAMED_LIMIT ? ", …" : "");
+              alpi_scene_second_set(scene), shared_percent(atlas), list->text,
+              list->count > NAMED_LIMIT ? ", …" : "");
 }
 
 /// Measures the atlas and looks for triangles that share a place.

@@ -124,11 +124,20 @@ static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
     const alp_sun_options *sun = &o->sun;
     add_count(b, "--sky", (uint64_t)sky->kind);
     for (int k = 0; k < 3; k++) {
-        add_number(b, k == 0 ? "--sky-red" : k == 1 ? "--sky-green" : "--sky-blue",
+        add_number(b,
+                   k == 0   ? "--sky-red"
+                   : k == 1 ? "--sky-green"
+                            : "--sky-blue",
                    (double)sky->up[k]);
-        add_number(b, k == 0 ? "--sky-red-down" : k == 1 ? "--sky-green-down" : "--sky-blue-down",
+        add_number(b,
+                   k == 0   ? "--sky-red-down"
+                   : k == 1 ? "--sky-green-down"
+                            : "--sky-blue-down",
                    (double)sky->down[k]);
-        add_number(b, k == 0 ? "--sun-red" : k == 1 ? "--sun-green" : "--sun-blue",
+        add_number(b,
+                   k == 0   ? "--sun-red"
+                   : k == 1 ? "--sun-green"
+                            : "--sun-blue",
                    (double)sun->color[k]);
     }
     if (sky->kind == ALP_SKY_IMAGE && sky->image != NULL) {

@@ -90,9 +90,8 @@ static uint32_t online_cores(void)
 
 static bool ranks_are_valid(const alp_ranks *r)
 {
-    return r == NULL ||
-           (r->struct_size == sizeof *r && r->count > 0 && r->rank < r->count &&
-            (r->count == 1 || (r->claim != NULL && r->exchange != NULL)));
+    return r == NULL || (r->struct_size == sizeof *r && r->count > 0 && r->rank < r->count &&
+                         (r->count == 1 || (r->claim != NULL && r->exchange != NULL)));
 }
 
 static bool options_are_valid(const alp_context_options *o)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// alpenglow merge: writes the result of a bake whose shards are complete. It runs the command of the
-// shards again, which reads their tiles instead of tracing rays.
+// alpenglow merge: writes the result of a bake whose shards are complete. It runs the command of
+// the shards again, which reads their tiles instead of tracing rays.
 #include "commands/commands.h"
 #include "printing/messages.h"
 #include "scale/checkpoints.h"
@@ -113,8 +113,7 @@ int command_merge(const command_line *a)
         return failure(alp_result_name(result));
     }
     result = alp_checkpoint_read(context, a->operands[0], &info);
-    const int code =
-        result == ALP_OK ? merge(a, info) : failure(alp_context_message(context));
+    const int code = result == ALP_OK ? merge(a, info) : failure(alp_context_message(context));
     alp_checkpoint_info_destroy(info);
     alp_context_destroy(context);
     return code;

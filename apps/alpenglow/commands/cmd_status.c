@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // alpenglow status: what the checkpoint of a bake says.
 #include "commands/commands.h"
-#include "printing/messages.h"
 #include "output.h"
+#include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
 
@@ -86,14 +86,14 @@ static int write_json(const alp_checkpoint_process *p, uint32_t count, const com
     json_t *list = json_array();
     for (uint32_t i = 0; i < count; i++) {
         json_array_append_new(
-            list, json_pack("{s:s, s:s, s:s, s:I, s:I, s:f, s:o, s:o, s:I, s:i, s:i}", "name",
-                            p[i].name, "phase", p[i].phase, "stage", p[i].stage, "done",
-                            (json_int_t)p[i].done, "total", (json_int_t)p[i].total, "seconds",
-                            p[i].seconds, "seconds_left",
-                            p[i].seconds_left >= 0.0 ? json_real(p[i].seconds_left) : json_null(),
-                            "error", isfinite(p[i].error) ? json_real(p[i].error) : json_null(),
-                            "written", (json_int_t)p[i].written, "shard", (int)p[i].shard,
-                            "shards", (int)p[i].shards));
+            list,
+            json_pack("{s:s, s:s, s:s, s:I, s:I, s:f, s:o, s:o, s:I, s:i, s:i}", "name", p[i].name,
+                      "phase", p[i].phase, "stage", p[i].stage, "done", (json_int_t)p[i].done,
+                      "total", (json_int_t)p[i].total, "seconds", p[i].seconds, "seconds_left",
+                      p[i].seconds_left >= 0.0 ? json_real(p[i].seconds_left) : json_null(),
+                      "error", isfinite(p[i].error) ? json_real(p[i].error) : json_null(),
+                      "written", (json_int_t)p[i].written, "shard", (int)p[i].shard, "shards",
+                      (int)p[i].shards));
     }
     json_t *document = json_pack("{s:s, s:o}", "version", alp_version(), "processes", list);
     const int code = document == NULL ? failure("out of memory")

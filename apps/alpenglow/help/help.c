@@ -142,7 +142,7 @@ static void print_footer(command_id command)
         print_scenes();
     }
     printf("\nExit status: 0 done, 1 failed, 2 wrong usage%s.\n",
-           command == COMMAND_BAKE            ? ", 75 stopped with a checkpoint, 130 interrupted"
+           command == COMMAND_BAKE          ? ", 75 stopped with a checkpoint, 130 interrupted"
            : command_interruptible(command) ? ", 130 interrupted"
                                             : "");
 }

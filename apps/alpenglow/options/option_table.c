@@ -4,9 +4,9 @@
 
 /// In the order of help and completion.
 static const option_part *const parts[] = {
-    &option_part_output,    &option_part_what, &option_part_space,   &option_part_ambience,
-    &option_part_lpv,       &option_part_stop, &option_part_picture, &option_part_light,
-    &option_part_ao,        &option_part_run,  &option_part_view,    &option_part_later,
+    &option_part_output,    &option_part_what,  &option_part_space,   &option_part_ambience,
+    &option_part_lpv,       &option_part_stop,  &option_part_picture, &option_part_light,
+    &option_part_ao,        &option_part_run,   &option_part_view,    &option_part_later,
     &option_part_view_more, &option_part_scale,
 };
 

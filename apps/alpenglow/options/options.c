@@ -91,7 +91,7 @@ static int parse_list(command_id command, const option *o, const char *text, opt
         if (code != EXIT_DONE) {
             return code;
         }
-        value->whole |= UINT64_C(1) << value->choice;
+        value->whole |= value->choice >= 0 ? UINT64_C(1) << value->choice : 0;
         at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return EXIT_DONE;
@@ -339,11 +339,11 @@ static bool has_output(command_id command)
 
 static const char *operand_names(command_id command)
 {
-    return command == COMMAND_COMPARE ? "two operands, A and B"
-           : command == COMMAND_SH    ? "one image, ENV"
-           : command == COMMAND_BENCH ? "one ROOM at most"
+    return command == COMMAND_COMPARE                              ? "two operands, A and B"
+           : command == COMMAND_SH                                 ? "one image, ENV"
+           : command == COMMAND_BENCH                              ? "one ROOM at most"
            : command == COMMAND_STATUS || command == COMMAND_MERGE ? "one folder, DIR"
-                                      : "one SCENE";
+                                                                   : "one SCENE";
 }
 
 static int refuse_operand(command_id command, const char *word)

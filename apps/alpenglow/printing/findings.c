@@ -2,8 +2,8 @@
 // The doctor's findings, as text and as JSON.
 #include "printing/findings.h"
 
-#include "printing/alike.h"
 #include "output.h"
+#include "printing/alike.h"
 
 #include <stdlib.h>
 #include <string.h>

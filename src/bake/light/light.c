@@ -123,8 +123,7 @@ static alp_result run(alpi_light_bake *light)
     const alp_light_options *o = &job->options.light;
     const bool direct = o->bounces == 0, paths = o->gather == ALP_GATHER_PATHS;
     job->report.light_direct = direct;
-    (void)alpi_tiles_set_kind(job->context,
-                              direct || paths ? ALPI_TILES_SPLIT : ALPI_TILES_WHOLE);
+    (void)alpi_tiles_set_kind(job->context, direct || paths ? ALPI_TILES_SPLIT : ALPI_TILES_WHOLE);
     ALP_TRY(direct  ? alpi_light_sample_all(light)
             : paths ? trace_paths(light)
                     : alpi_light_radiosity(light));

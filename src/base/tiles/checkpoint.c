@@ -11,6 +11,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -360,9 +361,11 @@ static alp_result compare(alpi_checkpoint *c, const alpi_checkpoint_state *state
 
 static bool is_of_this_run(const alpi_checkpoint *c, const char *name)
 {
-    unsigned rank = 0;
+    static const char rank[] = "rank-";
+    const size_t length = sizeof rank - 1;
     return strcmp(name, c->options.name) == 0 ||
-           (sscanf(name, "rank-%u", &rank) == 1 && rank < c->options.ranks);
+           (strncmp(name, rank, length) == 0 &&
+            strtoul(name + length, NULL, 10) < c->options.ranks);
 }
 
 /// Opens the log of another process for reading. One that cannot be read costs its tiles.

@@ -15,10 +15,10 @@
 
 typedef struct alpi_checkpoint_options {
     const char *folder;
-    const char *name;     // of this process: "bake", "rank-3", "shard-2"
-    const char *settings; // lines "name value\n" of all that changes a result
-    const char *restart;  // one line, see alpi_checkpoint_state; may be NULL
-    double every;         // seconds between two writes
+    const char *name;       // of this process: "bake", "rank-3", "shard-2"
+    const char *settings;   // lines "name value\n" of all that changes a result
+    const char *restart;    // one line, see alpi_checkpoint_state; may be NULL
+    double every;           // seconds between two writes
     uint32_t shard, shards; // this one, from 0, of so many; shards 0: none
     bool merging;           // reads all shards and writes nothing
     uint32_t rank, ranks;   // this one of so many; ranks 0: one process

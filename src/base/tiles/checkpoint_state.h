@@ -6,8 +6,8 @@
 
 #include "base/context.h"
 
-/// The state of one process of a bake. Texts are borrowed when it is written, and lie in `text` when
-/// it was read. None has a line end, but settings.
+/// The state of one process of a bake. Texts are borrowed when it is written, and lie in `text`
+/// when it was read. None has a line end, but settings.
 typedef struct alpi_checkpoint_state {
     const char *phase; // "running", "stopped" or "complete"
     const char *stage; // of the bake

@@ -24,8 +24,8 @@ typedef struct alpi_tile_run {
 /// Bytes of the outputs of a run.
 size_t alpi_tile_size(const alpi_tile_loop *loop, alpi_tile_run run);
 
-/// Appends tiles whose state has its bit in `wanted`, from `from` on, at most about `most` bytes: the
-/// number of runs, the runs, then their outputs.
+/// Appends tiles whose state has its bit in `wanted`, from `from` on, at most about `most` bytes:
+/// the number of runs, the runs, then their outputs.
 /// @param from in and out: the first tile that was not visited
 /// @param kept packed tiles whose state is RAN become KEPT
 /// @return tiles packed; 0 if there are none, or bytes->failed

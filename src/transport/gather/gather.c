@@ -477,15 +477,14 @@ alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_pr
     alpi_tile_output outputs[ALPI_GATHER_OUTPUTS];
     alpi_gather_outputs(job, outputs);
     return alpi_tile_loop_run(
-        job->context,
-        &(alpi_tile_loop){.name = "gather",
-                          .count = job->count,
-                          .grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1,
-                          .body = gather_receivers,
-                          .user = &own,
-                          .progress = &told,
-                          .outputs = outputs,
-                          .output_count = ALPI_GATHER_OUTPUTS,
-                          .marks = job->marks,
-                          .mark_count = job->mark_count});
+        job->context, &(alpi_tile_loop){.name = "gather",
+                                        .count = job->count,
+                                        .grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1,
+                                        .body = gather_receivers,
+                                        .user = &own,
+                                        .progress = &told,
+                                        .outputs = outputs,
+                                        .output_count = ALPI_GATHER_OUTPUTS,
+                                        .marks = job->marks,
+                                        .mark_count = job->mark_count});
 }

@@ -124,8 +124,7 @@ typedef struct alpi_gather_job {
 
 enum { ALPI_GATHER_OUTPUTS = 4 };
 /// The arrays of a job, as outputs of a loop over its receivers.
-void alpi_gather_outputs(const alpi_gather_job *job,
-                         alpi_tile_output outputs[ALPI_GATHER_OUTPUTS]);
+void alpi_gather_outputs(const alpi_gather_job *job, alpi_tile_output outputs[ALPI_GATHER_OUTPUTS]);
 
 /// @return ALP_OK; CANCELLED; of alpi_tile_loop_run. The same bits for any number of workers.
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress);

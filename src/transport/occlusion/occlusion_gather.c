@@ -157,15 +157,14 @@ static alp_result run_samples(gather_job *job, uint32_t count, uint32_t grain,
         {.data = s->open, .size = sizeof *s->open, .list = job->list, .count = count},
         {.data = s->done, .size = sizeof *s->done, .list = job->list, .count = count},
         {.data = s->vectors, .size = sizeof *s->vectors, .list = job->list, .count = count}};
-    return alpi_tile_loop_run(job->setup->context,
-                              &(alpi_tile_loop){.name = "occlusion",
-                                                .count = count,
-                                                .grain = grain,
-                                                .body = run_range,
-                                                .user = job,
-                                                .progress = progress,
-                                                .outputs = outputs,
-                                                .output_count = 3});
+    return alpi_tile_loop_run(job->setup->context, &(alpi_tile_loop){.name = "occlusion",
+                                                                     .count = count,
+                                                                     .grain = grain,
+                                                                     .body = run_range,
+                                                                     .user = job,
+                                                                     .progress = progress,
+                                                                     .outputs = outputs,
+                                                                     .output_count = 3});
 }
 
 // Nine arguments, internal: a struct of three numbers would say no more.

@@ -255,15 +255,15 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      .list = list,
                                      .count = job.count,
                                      .each = job.chunk};
-    return alpi_tile_loop_run(
-        own.context, &(alpi_tile_loop){.name = "paths",
-                                       .count = job.count / job.chunk + (job.count % job.chunk != 0),
-                                       .grain = 1,
-                                       .body = gather_chunks,
-                                       .user = &job,
-                                       .progress = &told,
-                                       .outputs = &output,
-                                       .output_count = 1});
+    return alpi_tile_loop_run(own.context, &(alpi_tile_loop){.name = "paths",
+                                                             .count = job.count / job.chunk +
+                                                                      (job.count % job.chunk != 0),
+                                                             .grain = 1,
+                                                             .body = gather_chunks,
+                                                             .user = &job,
+                                                             .progress = &told,
+                                                             .outputs = &output,
+                                                             .output_count = 1});
 }
 
 // --- pictures ------------------------------------------------------------------------------------

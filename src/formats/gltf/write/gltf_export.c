@@ -129,8 +129,9 @@ static alp_result add_indices(alpi_gltf_exporter *e, const alpi_surface *surface
 static bool repeats_set(const alp_scene *scene, const alpi_surface *surface, uint32_t set)
 {
     const uint32_t first = surface->first_vertex;
-    return set > 0 && memcmp(scene->uvs[set - 1][first], scene->uvs[set][first],
-                             surface->vertex_count * sizeof *scene->uvs[set]) == 0;
+    return set > 0 && set < ALPI_UV_SLOT_COUNT &&
+           memcmp(scene->uvs[set - 1][first], scene->uvs[set][first],
+                  surface->vertex_count * sizeof *scene->uvs[set]) == 0;
 }
 
 /// Sets that the surface has, and those its material reads (zeros in the scene's array).
