@@ -2,6 +2,7 @@
 #include "bake/checkpoint_settings.h"
 
 #include "base/hash.h"
+#include "base/tiles/tile_log.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -40,15 +41,47 @@ static void add_text(alpi_bytes *b, const char *name, const char *text)
 
 // --- the scene -----------------------------------------------------------------------------------
 
-/// Fingerprint of shape and lights, which a pose moves.
-static uint64_t hash_pose(const alp_scene *scene)
+/// Fingerprint of the triangles, which a pose moves.
+static uint64_t hash_shape(const alp_scene *scene)
 {
-    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, scene->positions,
-                                    scene->vertex_count * sizeof *scene->positions);
+    const uint64_t points = alpi_tile_checksum((const uint8_t *)scene->positions,
+                                               scene->vertex_count * sizeof *scene->positions);
+    return points ^ alpi_tile_checksum((const uint8_t *)scene->triangles,
+                                       scene->triangle_count * sizeof *scene->triangles);
+}
+
+/// Fingerprint of the lights of the file. They have no padding in these fields.
+static uint64_t hash_lights(const alp_scene *scene)
+{
+    uint64_t hash = ALPI_HASH_START;
     for (uint32_t i = 0; i < scene->light_count; i++) {
         const alpi_light *l = &scene->lights[i];
-        hash = alpi_hash_bytes(hash, &l->position, sizeof l->position);
-        hash = alpi_hash_bytes(hash, &l->direction, sizeof l->direction);
+        const float values[] = {(float)l->kind, l->color.x,     l->color.y,     l->color.z,
+                                l->intensity,   l->position.x,  l->position.y,  l->position.z,
+                                l->direction.x, l->direction.y, l->direction.z, l->range,
+                                l->inner_cone,  l->outer_cone,  l->size};
+        hash = alpi_hash_bytes(hash, values, sizeof values);
+    }
+    return hash;
+}
+
+static uint64_t hash_image(const alp_image *image)
+{
+    const alp_image_info info = alp_image_get_info(image);
+    const size_t size = info.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
+    const uint64_t pixels = alpi_tile_checksum(
+        alp_image_pixels(image), (size_t)info.width * info.height * info.channels * size);
+    const uint32_t shape[] = {info.width, info.height, info.channels, (uint32_t)size};
+    return alpi_hash_bytes(pixels, shape, sizeof shape);
+}
+
+/// Fingerprint of the images that were read. The file's content does not hold them all.
+static uint64_t hash_images(const alp_scene *scene)
+{
+    uint64_t hash = ALPI_HASH_START;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        const uint64_t one = scene->images[i] != NULL ? hash_image(scene->images[i]) : 0;
+        hash = alpi_hash_bytes(hash, &one, sizeof one);
     }
     return hash;
 }
@@ -59,8 +92,9 @@ static void add_scene(const alpi_bake_job *job, alpi_bytes *b)
     add_text(b, "alpenglow", alp_version());
     add_text(b, "instructions", alpi_context_isa(job->context));
     add_hash(b, "SCENE-content", scene->input_hash);
-    add_hash(b, "pose", hash_pose(scene));
-    add_count(b, "triangles", scene->triangle_count);
+    add_hash(b, "triangles", hash_shape(scene));
+    add_hash(b, "lights", hash_lights(scene));
+    add_hash(b, "images", hash_images(scene));
     add_text(b, "--metals", scene->metals_black ? "black" : "diffuse");
 }
 
@@ -91,14 +125,6 @@ static void add_occlusion(const alp_bake_options *all, alpi_bytes *b)
     add_count(b, "--seed", o->seed);
     add_count(b, "--existing-ao", (uint64_t)all->existing_ao);
     add_count(b, "--ao-into", (uint64_t)all->ao_into);
-}
-
-static uint64_t hash_image(const alp_image *image)
-{
-    const alp_image_info info = alp_image_get_info(image);
-    const size_t size = info.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
-    return alpi_hash_bytes(ALPI_HASH_START, alp_image_pixels(image),
-                           (size_t)info.width * info.height * info.channels * size);
 }
 
 static uint64_t hash_lamps(const alp_lighting_options *o)
@@ -190,6 +216,8 @@ static void add_probes(const alp_probe_options *o, alpi_bytes *b)
     add_count(b, "--visibility", o->visibility);
     add_count(b, "--gradients", o->gradients);
     add_count(b, "probe-rays", o->rays);
+    add_count(b, "probe-direct", o->direct);
+    add_count(b, "probe-atlas", o->atlas_size);
 }
 
 alpi_bytes alpi_bake_settings(const alpi_bake_job *job)

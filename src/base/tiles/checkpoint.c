@@ -8,6 +8,7 @@
 #include "base/tiles/tile_log.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -21,7 +22,7 @@ static const double FIRST_WRITE = 4.0;
 enum {
     RECORD_BYTES = 4 << 20,   // of outputs in a record
     PENDING_BYTES = 64 << 20, // copied tiles are written before the interval ends
-    PENDING_LIMIT = 1 << 30,  // a disk that takes nothing loses the copies
+    PENDING_LIMIT = 1 << 28,  // a disk that takes nothing loses the copies
     STAGE_SIZE = 64,
     TEXTS = 4
 };
@@ -31,6 +32,7 @@ struct alpi_checkpoint {
     alpi_checkpoint_options options; // its texts lie in `texts`
     char *texts[TEXTS];              // owned
     char *state_path;
+    int folder; // locked; −1: not
     uint64_t key;
     alpi_tile_log own;     // closed for a merge
     alpi_tile_log *others; // [other_count] logs of other processes
@@ -403,14 +405,20 @@ static void remove_files(const alpi_checkpoint *c, const char *name, bool state)
     }
 }
 
+/// Whether the work of a process is done, and nothing reads it again. Shards wait for a merge.
+static bool is_over(const alpi_checkpoint_state *state)
+{
+    return strcmp(state->phase, "complete") == 0 && state->count == 0;
+}
+
 /// Compares all states with this bake, and opens the logs that it reads. A folder of bakes that are
-/// complete is free.
+/// over is free.
 static alp_result open_others(alpi_checkpoint *c, const alpi_checkpoint_list *list)
 {
     ALPI_TRY_NEW(c->context, c->others, list->count);
     for (size_t i = 0; i < list->count; i++) {
         const alpi_checkpoint_state *s = &list->states[i];
-        if (strcmp(s->phase, "complete") == 0 && !c->options.merging && c->options.shards == 0) {
+        if (is_over(s) && c->options.shards == 0) {
             continue;
         }
         ALP_TRY(compare(c, s));
@@ -432,6 +440,15 @@ static alp_result open_own(alpi_checkpoint *c)
     const alp_result result = alpi_tile_log_open(c->context, path, c->key, true, &c->own);
     alpi_release(c->context, path);
     return result;
+}
+
+/// Locks the folder until the process ends: a bake alone, shards and ranks together with their
+/// like.
+static alp_result lock_folder(alpi_checkpoint *c)
+{
+    const bool shared = c->options.shards > 0 || c->options.ranks > 0;
+    c->folder = open(c->options.folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return alpi_tile_log_lock(c->context, c->options.folder, c->folder, shared);
 }
 
 static void note_resumed(alpi_checkpoint *c, const alpi_checkpoint_list *list)
@@ -459,7 +476,8 @@ static alp_result open_files(alpi_checkpoint *c)
         ALP_TRY(alpi_folder_create(c->context, c->options.folder));
     }
     ALP_TRY(alpi_checkpoint_list_states(c->context, c->options.folder, &list));
-    alp_result result = open_others(c, &list);
+    alp_result result = lock_folder(c);
+    result = result == ALP_OK ? open_others(c, &list) : result;
     if (result == ALP_OK && !c->options.merging) {
         result = open_own(c);
     }
@@ -492,6 +510,9 @@ static void release(alpi_checkpoint *c)
 {
     alp_context *context = c->context;
     alpi_tile_log_close(&c->own);
+    if (c->folder >= 0) {
+        close(c->folder);
+    }
     for (size_t i = 0; i < c->other_count; i++) {
         alpi_tile_log_close(&c->others[i]);
     }
@@ -517,6 +538,7 @@ alp_result alpi_checkpoint_open(alp_context *context, const alpi_checkpoint_opti
     }
     *c = (alpi_checkpoint){.context = context,
                            .own = {.file = -1},
+                           .folder = -1,
                            .pending = alpi_bytes_create(context),
                            .opened = alpi_seconds(),
                            .left = -1.0,
@@ -531,6 +553,10 @@ alp_result alpi_checkpoint_open(alp_context *context, const alpi_checkpoint_opti
     if (result != ALP_OK) {
         release(c);
         return result;
+    }
+    if (!options->merging) {
+        write_out(c, "running"); // for status, and a kill before the first tiles
+        warn_of_trouble(c);
     }
     *checkpoint = c;
     return ALP_OK;
@@ -559,7 +585,7 @@ static void remove_tiles(alpi_checkpoint *c)
         return;
     }
     for (size_t i = 0; i < list.count; i++) {
-        if (!is_of_this_run(c, list.names[i])) {
+        if (!is_of_this_run(c, list.names[i]) && list.states[i].count == 0) {
             remove_files(c, list.names[i], true);
         }
     }

@@ -75,11 +75,13 @@ static bool write_flushed(const char *path, const alpi_bytes *b)
     return good;
 }
 
-/// PATH.new becomes PATH, and PATH becomes PATH.old. A process that ends between the two renames
-/// leaves PATH.old, which is read then.
+/// PATH.new becomes PATH, and the former PATH stays as PATH.old. PATH is there at every moment, but on
+/// a disk without links.
 static bool replace(const char *path, const char *fresh, const char *old)
 {
-    return (rename(path, old) == 0 || errno == ENOENT) && rename(fresh, path) == 0;
+    (void)unlink(old);
+    const bool kept = link(path, old) == 0 || errno == ENOENT || rename(path, old) == 0;
+    return kept && rename(fresh, path) == 0;
 }
 
 bool alpi_checkpoint_state_write(alp_context *context, const char *path,

@@ -206,6 +206,7 @@ static uint64_t add_number(uint64_t hash, uint64_t number)
 uint64_t alpi_tile_shape(const alpi_tile_loop *loop)
 {
     uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, loop->name, strlen(loop->name));
+    hash = add_number(hash, loop->key);
     hash = add_number(hash, loop->count);
     hash = add_number(hash, loop->grain);
     for (uint32_t i = 0; i < loop->output_count; i++) {

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static const uint32_t RECORD_MAGIC = 0x454c4954u; // "TILE"
@@ -61,20 +62,6 @@ static bool write_at(int file, uint64_t offset, const void *bytes, size_t size)
     return true;
 }
 
-bool alpi_tile_log_append(alpi_tile_log *log, const uint8_t *bytes, size_t size)
-{
-    if (write_at(log->file, log->end, bytes, size) && fdatasync(log->file) == 0) {
-        log->end += size;
-        return true;
-    }
-    const int why = errno;
-    (void)!ftruncate(log->file, (off_t)log->end); // what is behind the end has no meaning
-    errno = why;
-    return false;
-}
-
-// --- opening -------------------------------------------------------------------------------------
-
 static file_head make_head(uint64_t key)
 {
     file_head head = {.key = key};
@@ -82,6 +69,33 @@ static file_head make_head(uint64_t key)
     head.own = alpi_hash_bytes(ALPI_HASH_START, &head, offsetof(file_head, own));
     return head;
 }
+
+/// Appends bytes at the end. On failure the file keeps its former end.
+static bool append(alpi_tile_log *log, const void *bytes, size_t size)
+{
+    if (write_at(log->file, log->end, bytes, size) && fdatasync(log->file) == 0) {
+        log->end += size;
+        return true;
+    }
+    const int why = errno;
+    (void)!ftruncate(log->file, (off_t)log->end); // the bytes behind the end have no meaning
+    errno = why;
+    return false;
+}
+
+/// Writes the head of an empty file.
+static bool begin(alpi_tile_log *log)
+{
+    const file_head head = make_head(log->key);
+    return log->end > 0 || append(log, &head, sizeof head);
+}
+
+bool alpi_tile_log_append(alpi_tile_log *log, const uint8_t *bytes, size_t size)
+{
+    return begin(log) && append(log, bytes, size);
+}
+
+// --- opening -------------------------------------------------------------------------------------
 
 static uint64_t checksum_of(const alpi_tile_head *head)
 {
@@ -137,8 +151,27 @@ static alp_result read_log(alpi_tile_log *log, uint64_t key)
     if (ftruncate(log->file, (off_t)log->end) != 0) {
         return fail(log, "cannot write");
     }
-    if (!ours && !alpi_tile_log_append(log, (const uint8_t *)&wanted, sizeof wanted)) {
-        return fail(log, "cannot write");
+    // A full disk may have room later.
+    const bool begun = begin(log) || errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
+    return begun ? ALP_OK : fail(log, "cannot write");
+}
+
+alp_result alpi_tile_log_lock(alp_context *context, const char *path, int file, bool shared)
+{
+    enum { TRIES = 40 };
+    const struct timespec pause = {.tv_nsec = 50000000};
+    for (int i = 0; flock(file, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0; i++) {
+        if (errno != EWOULDBLOCK) {
+            return ALP_OK; // a file system without locks
+        }
+        if (i == TRIES) {
+            return alpi_fail(
+                context, ALP_ERROR_IO,
+                "%s: another process writes this checkpoint; wait for its end, or take "
+                "another folder",
+                path);
+        }
+        nanosleep(&pause, NULL);
     }
     return ALP_OK;
 }
@@ -150,11 +183,8 @@ static alp_result open_file(alpi_tile_log *log)
     if (log->file < 0) {
         return fail(log, log->writes ? "cannot write" : "cannot read");
     }
-    if (log->writes && flock(log->file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-        return alpi_fail(log->context, ALP_ERROR_IO,
-                         "%s: another process writes this checkpoint; wait for its end, or take "
-                         "another folder",
-                         log->path);
+    if (log->writes) {
+        return alpi_tile_log_lock(log->context, log->path, log->file, false);
     }
     return ALP_OK;
 }
@@ -162,7 +192,7 @@ static alp_result open_file(alpi_tile_log *log)
 alp_result alpi_tile_log_open(alp_context *context, const char *path, uint64_t key, bool writes,
                               alpi_tile_log *log)
 {
-    *log = (alpi_tile_log){.context = context, .file = -1, .writes = writes};
+    *log = (alpi_tile_log){.context = context, .file = -1, .writes = writes, .key = key};
     log->path = alpi_copy_string(context, path);
     alp_result result = log->path != NULL ? open_file(log) : ALP_ERROR_OUT_OF_MEMORY;
     result = result == ALP_OK ? read_log(log, key) : result;

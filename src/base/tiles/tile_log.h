@@ -31,7 +31,8 @@ typedef struct alpi_tile_log {
     char *path; // owned
     int file;   // −1: closed
     bool writes;
-    uint64_t end; // bytes that are in order
+    uint64_t key;
+    uint64_t end; // bytes that are in order; 0: the head of the file is not written yet
     bool damaged; // bytes behind `end` were given up
     alpi_tile_record *records;
     size_t count, capacity;
@@ -43,6 +44,10 @@ typedef struct alpi_tile_log {
 /// @return ALP_OK; IO (unreadable, or another process appends to it); OUT_OF_MEMORY
 alp_result alpi_tile_log_open(alp_context *context, const char *path, uint64_t key, bool writes,
                               alpi_tile_log *log);
+/// Locks an open file or folder until it is closed. A process that was killed may hold its lock for
+/// a moment, so this waits for up to 2 seconds.
+/// @param shared by others who share it   @return ALP_OK; IO (another process holds it)
+alp_result alpi_tile_log_lock(alp_context *context, const char *path, int file, bool shared);
 void alpi_tile_log_close(alpi_tile_log *log);
 
 /// Reads the packed tiles of a record. @param bytes [head.size] out

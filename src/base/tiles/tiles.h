@@ -21,6 +21,7 @@ typedef struct alpi_tile_output {
 
 typedef struct alpi_tile_loop {
     const char *name; // fixed; part of the loop's shape
+    uint64_t key;     // of all that its results follow from besides its lists: samples, seed
     uint32_t count;   // items
     uint32_t grain;   // items of a tile
     alpi_task_fn *body;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/tiles/tiles.h"
 #include "base/warp.h"
@@ -411,8 +412,11 @@ static alp_result run_blocks(direct_job *job, uint32_t blocks, const alpi_task_p
     if (outputs == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;
     }
+    const alpi_direct *d = job->direct;
+    const uint64_t parts[] = {d->options.seed, d->samples, d->part_count, d->polygon_count};
     const alpi_tile_loop loop = {
         .name = "direct",
+        .key = alpi_hash_bytes(ALPI_HASH_START, parts, sizeof parts),
         .count = blocks,
         .grain = (uint32_t)fmax(2048.0 / progress->units_per_item, 1.0), // about one millisecond
         .body = gather_range,

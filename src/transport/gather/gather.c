@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "transport/gather/gather.h"
 
+#include "base/hash.h"
 #include "base/tasks.h"
 #include "transport/gather/near_rays.h"
 #include "transport/paths/panes.h"
@@ -465,6 +466,15 @@ void alpi_gather_outputs(const alpi_gather_job *job, alpi_tile_output outputs[AL
     }
 }
 
+uint64_t alpi_gather_key(const alpi_gather_job *job)
+{
+    const alpi_gatherer *g = job->gatherer;
+    const uint64_t parts[] = {
+        g->seed,        g->packet_count,     g->replicates,          g->coherent,
+        job->from->sky, job->from->emitters, job->from->near != NULL};
+    return alpi_hash_bytes(ALPI_HASH_START, parts, sizeof parts);
+}
+
 alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_progress *progress)
 {
     enum { RAYS_PER_RANGE = 1024 }; // about a tenth of a millisecond
@@ -478,6 +488,7 @@ alp_result alpi_gather_irradiance(const alpi_gather_job *job, const alpi_task_pr
     alpi_gather_outputs(job, outputs);
     return alpi_tile_loop_run(
         job->context, &(alpi_tile_loop){.name = "gather",
+                                        .key = alpi_gather_key(job),
                                         .count = job->count,
                                         .grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1,
                                         .body = gather_receivers,

@@ -122,6 +122,8 @@ typedef struct alpi_gather_job {
     size_t mark_count;
 } alpi_gather_job;
 
+/// Fingerprint of the rays of a job, for its tile loops.
+uint64_t alpi_gather_key(const alpi_gather_job *job);
 enum { ALPI_GATHER_OUTPUTS = 4 };
 /// The arrays of a job, as outputs of a loop over its receivers.
 void alpi_gather_outputs(const alpi_gather_job *job, alpi_tile_output outputs[ALPI_GATHER_OUTPUTS]);

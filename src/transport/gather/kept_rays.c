@@ -132,6 +132,7 @@ static alp_result run(kept_job *k, uint32_t together, alpi_tile_loop loop,
     alpi_gather_outputs(written, outputs);
     loop.count = k->job->count;
     loop.grain = rays < together ? together / rays : 1;
+    loop.key = alpi_gather_key(k->job);
     loop.user = k;
     loop.outputs = outputs;
     loop.output_count = ALPI_GATHER_OUTPUTS;

@@ -5,6 +5,7 @@
 // Based on: C. Kollig, A. Keller. Efficient Multidimensional Sampling. CGF 21(3), 2002.
 #include "transport/occlusion/occlusion_kernel.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tiles/tiles.h"
@@ -28,7 +29,7 @@ typedef struct gather_job {
     const alpi_receivers *receivers;
     const uint32_t *list;
     alpi_sample_run run;
-    uint32_t samples; // of the run
+    uint32_t first, samples; // of the run
     alpi_occlusion_sums *sums;
 } gather_job;
 
@@ -157,7 +158,10 @@ static alp_result run_samples(gather_job *job, uint32_t count, uint32_t grain,
         {.data = s->open, .size = sizeof *s->open, .list = job->list, .count = count},
         {.data = s->done, .size = sizeof *s->done, .list = job->list, .count = count},
         {.data = s->vectors, .size = sizeof *s->vectors, .list = job->list, .count = count}};
+    const uint64_t parts[] = {job->setup->options.seed, job->first, job->samples};
+    const uint64_t key = alpi_hash_bytes(ALPI_HASH_START, parts, sizeof parts);
     return alpi_tile_loop_run(job->setup->context, &(alpi_tile_loop){.name = "occlusion",
+                                                                     .key = key,
                                                                      .count = count,
                                                                      .grain = grain,
                                                                      .body = run_range,
@@ -186,6 +190,7 @@ alp_result alpi_occlusion_add(const alpi_occlusion_setup *setup, const alpi_rece
         told.units_per_item = job.samples;
         told.units_before = before + (double)list_count * done;
         const alpi_sample_range range = {first + done, job.samples, sums->parted, total};
+        job.first = range.first;
         ALP_TRY(alpi_sample_run_create(setup, receivers->extended, &range, &job.run));
         const uint32_t grain = job.samples < RAYS_PER_RANGE ? RAYS_PER_RANGE / job.samples : 1;
         const alp_result result = run_samples(&job, list_count, grain, &told);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "transport/paths/reference.h"
 
+#include "base/hash.h"
 #include "base/random.h"
 #include "base/tiles/tiles.h"
 #include "transport/paths/paths.h"
@@ -255,7 +256,10 @@ alp_result alpi_reference_irradiance(const alpi_reference *reference,
                                      .list = list,
                                      .count = job.count,
                                      .each = job.chunk};
+    const uint64_t parts[] = {own.seed, samples, own.bounces, own.next_event};
+    const uint64_t key = alpi_hash_bytes(ALPI_HASH_START, parts, sizeof parts);
     return alpi_tile_loop_run(own.context, &(alpi_tile_loop){.name = "paths",
+                                                             .key = key,
                                                              .count = job.count / job.chunk +
                                                                       (job.count % job.chunk != 0),
                                                              .grain = 1,

@@ -23,7 +23,7 @@ cmp whole/ao.exr maps/ao.exr && echo same
 job=$!
 disown $job
 began=$(date +%s%N)
-while [ ! -e long/bake.state ] && [ $(($(date +%s%N) - began)) -lt 15000000000 ]; do
+while [ ! -s long/bake.state ] || ! grep -q "^tiles [1-9]" long/bake.state && [ $(($(date +%s%N) - began)) -lt 15000000000 ]; do
     sleep 0.1
 done
 late=$((($(date +%s%N) - began) / 1000000))
