@@ -45,6 +45,15 @@ static const option rows[] = {
      .help = "Write the asset (.glb, .gltf, .dae, .obj) or the folder of maps (another name) here, "
              "instead of where the bake would."},
     {.id = OPTION_OUTPUT,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "OUT.html",
+     .help = "The page, required. It holds the scene, the files that the scene names, and three.js "
+             "with its licence."},
+    {.id = OPTION_OUTPUT,
      .commands = IN_SH,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
@@ -172,7 +181,7 @@ static const option rows[] = {
     {.id = OPTION_FORCE,
      .commands =
          RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW |
-         IN_STATUS | IN_MERGE,
+         IN_STATUS | IN_MERGE | IN_WEB,
      .common = IN_BAKE | IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,
