@@ -79,8 +79,8 @@ static const command_entry commands[COMMAND_COUNT] = {
          "flight (--frames, --path, --pictures). A picture has the camera, the exposure and the "
          "tone curve of render. This is a program of its own, alpenglow-view, which needs EGL; "
          "without a graphics card, Mesa draws on the processor."},
-    [COMMAND_STATUS] = {"status", "DIR [--json [FILE]]", "print the progress of a checkpointed bake",
-                        1,
+    [COMMAND_STATUS] = {"status", "DIR [--json [FILE]]",
+                        "print the progress of a checkpointed bake", 1,
                         "Prints the state that the processes of a bake keep in the DIR of "
                         "--checkpoint: what is done, the stated error so far, the time left at the "
                         "last write, and shards that are missing."},

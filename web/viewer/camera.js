@@ -45,17 +45,17 @@ export function makeCamera(gltf, canvas) {
   const camera = fromFile(gltf) ?? automatic(box);
   camera.near = Math.max(camera.near, size * 1e-4);
   camera.far = Math.max(size, camera.position.distanceTo(box.getCenter(new THREE.Vector3()))) * 10;
-  const controls = new OrbitControls(camera, canvas);
   const target = targetOf(camera, box);
-  controls.target.copy(target);
-  controls.maxDistance = camera.far / 3;
   const start = { position: camera.position.clone(), quaternion: camera.quaternion.clone() };
+  const controls = new OrbitControls(camera, canvas); // turns the camera
+  controls.maxDistance = camera.far / 3;
   const reset = () => {
     controls.target.copy(target);
     camera.position.copy(start.position);
     controls.update();
     camera.quaternion.copy(start.quaternion);
   };
+  reset();
   return { camera, controls, reset, turn: (x, y) => turn(camera, controls, x, y), dolly: (f) => dolly(camera, controls, f) };
 }
 

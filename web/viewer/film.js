@@ -20,14 +20,14 @@ const side = 128;
 export function meter(renderer, scene, camera) {
   const target = new THREE.WebGLRenderTarget(side, side, { type: THREE.FloatType });
   const pixels = new Float32Array(4 * side * side);
-  const { background } = scene;
-  scene.background = null;
+  const clear = renderer.getClearColor(new THREE.Color());
+  renderer.setClearColor(0x000000, 0);
   renderer.setRenderTarget(target);
   renderer.clear();
   renderer.render(scene, camera);
   renderer.readRenderTargetPixels(target, 0, 0, side, side, pixels);
   renderer.setRenderTarget(null);
-  scene.background = background;
+  renderer.setClearColor(clear, 1);
   target.dispose();
   const values = [];
   for (let i = 0; i < pixels.length; i += 4) {

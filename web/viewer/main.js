@@ -24,6 +24,7 @@ function makeRenderer() {
     return null;
   }
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+  renderer.setClearColor(0x26292d);
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   return renderer;
 }

@@ -34,12 +34,19 @@ export function replaceMaterials(root) {
   return [...made.values()];
 }
 
-/// What the materials hold. `form` is 'map', 'emission' (in place of the colours) or null.
+/// The form of the light: 'map', 'radiance' (a map that shows it with colours), 'emission' (in place of
+/// the colours) or null.
+function formOf(materials, bake) {
+  if (materials.some((m) => m.lightMap !== null)) return 'map';
+  if (materials.some((m) => m.emissiveMap?.userData.isRadiance)) return 'radiance';
+  return bake?.light?.as === 'emissive' ? 'emission' : null;
+}
+
+/// What the materials hold.
 export function findMaps(materials, bake) {
-  const emission = bake?.light?.as === 'emissive';
   return {
     occlusion: materials.some((m) => m.aoMap !== null),
-    light: materials.some((m) => m.lightMap !== null) ? 'map' : emission ? 'emission' : null,
+    light: formOf(materials, bake),
     textures: materials.some((m) => m.map !== null || m.vertexColors || m.color.getHex() !== 0xffffff),
   };
 }

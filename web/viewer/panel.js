@@ -25,7 +25,7 @@ function addSwitch(key, label, hint, { state, changed }) {
 
 function addSwitches({ found, state }, changed) {
   const given = { state, changed };
-  if (found.light === 'map') addSwitch('light', 'Light', 'off: even light from all sides', given);
+  if (found.light === 'map' || found.light === 'radiance') addSwitch('light', 'Light', 'off: even light from all sides', given);
   if (found.light === 'emission') addSwitch('light', 'Light', 'off: white surfaces; the file holds light in place of colours', given);
   if (found.occlusion) addSwitch('occlusion', 'Occlusion', found.light === 'map' ? 'darkens the light maps too' : '', given);
   if (found.textures && found.light !== 'emission') addSwitch('colours', 'Colours', '', given);

@@ -31,12 +31,13 @@ function managerOf(urls) {
   return manager;
 }
 
-/// A texture of half floats or floats. EXR and HDR loaders hand out rows from the bottom.
+/// A texture of half floats or floats whose first row is v = 0. EXRLoader hands out rows from the
+/// bottom; HDRLoader has them flipped by WebGL.
 async function loadFloats(uri, manager, renderer) {
   if (/\.ktx2$/i.test(uri)) return new KTX2Loader(manager).detectSupport(renderer).loadAsync(uri);
-  const loader = /\.hdr$/i.test(uri) ? new HDRLoader(manager) : new EXRLoader(manager);
-  const texture = await loader.loadAsync(uri);
-  texture.flipY = true;
+  const isHdr = /\.hdr$/i.test(uri);
+  const texture = await new (isHdr ? HDRLoader : EXRLoader)(manager).loadAsync(uri);
+  texture.flipY = !isHdr;
   texture.needsUpdate = true;
   return texture;
 }
@@ -62,11 +63,14 @@ class LightMapPlugin {
     map.channel = found.texCoord ?? 0;
     map.colorSpace = THREE.LinearSRGBColorSpace;
     if (moz === undefined) map.minFilter = map.magFilter = THREE.LinearFilter;
-    params.lightMap = map;
-    // Units other than irradiance lack a factor of π.
-    const bake = this.parser.json.asset?.extras?.alpenglow?.light?.units;
-    const units = (moz !== undefined ? bake : extra.units) ?? 'irradiance';
-    params.lightMapIntensity = (found.intensity ?? 1) * (units === 'irradiance' ? 1 : Math.PI);
+    const intensity = found.intensity ?? 1;
+    if (found.units === 'radiance') {
+      map.userData.isRadiance = true; // all light that leaves the surface, its emission included
+      Object.assign(params, { emissive: new THREE.Color(1, 1, 1), emissiveMap: map, emissiveIntensity: intensity });
+    } else {
+      params.lightMap = map;
+      params.lightMapIntensity = found.units === 'irradiance/pi' ? Math.PI * intensity : intensity;
+    }
   }
 }
 

@@ -90,9 +90,8 @@ static int write_page(const char *page, const web_scene *scene, const command_li
     const bool good = ferror(stream) == 0;
     const bool closed = fclose(stream) == 0;
     const char *output = a->values[OPTION_OUTPUT].text;
-    const int code = good && closed
-                         ? output_write_text(text, output, a->values[OPTION_FORCE].given)
-                         : failure("out of memory");
+    const int code = good && closed ? output_write_text(text, output, a->values[OPTION_FORCE].given)
+                                    : failure("out of memory");
     if (code == EXIT_DONE && !a->values[OPTION_QUIET].given) {
         print_clean(stdout, output);
         printf(": %.1f MB, %.1f MB of it the scene\n", 1e-6 * (double)size,

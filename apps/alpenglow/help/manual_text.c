@@ -108,12 +108,11 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                                   "alpenglow sh sky.hdr"},
                                  {"Print those of Filament, and write the irradiance map:",
                                   "alpenglow sh sky.hdr --convention filament -o irradiance.hdr"}}},
-    [COMMAND_STATUS] =
-        {.failed = "DIR has no checkpoint, or cannot be read.",
-         .files = {{"DIR/NAME.state", "State of a process: text, with a checksum."},
-                   {"DIR/NAME.tiles", "Its finished work."}},
-         .examples = {{"Print the progress of a bake that runs elsewhere:",
-                       "alpenglow status work"}}},
+    [COMMAND_STATUS] = {.failed = "DIR has no checkpoint, or cannot be read.",
+                        .files = {{"DIR/NAME.state", "State of a process: text, with a checksum."},
+                                  {"DIR/NAME.tiles", "Its finished work."}},
+                        .examples = {{"Print the progress of a bake that runs elsewhere:",
+                                      "alpenglow status work"}}},
     [COMMAND_MERGE] =
         {.failed = "Shards are missing, which the message lists, or the result could not be "
                    "written.",

@@ -339,12 +339,12 @@ static bool has_output(command_id command)
 
 static const char *operand_names(command_id command)
 {
-    return command == COMMAND_COMPARE ? "two operands, A and B"
-           : command == COMMAND_SH    ? "one image, ENV"
-           : command == COMMAND_BENCH ? "one ROOM at most"
-           : command == COMMAND_WEB   ? "one scene, BAKED"
+    return command == COMMAND_COMPARE                              ? "two operands, A and B"
+           : command == COMMAND_SH                                 ? "one image, ENV"
+           : command == COMMAND_BENCH                              ? "one ROOM at most"
+           : command == COMMAND_WEB                                ? "one scene, BAKED"
            : command == COMMAND_STATUS || command == COMMAND_MERGE ? "one folder, DIR"
-                                      : "one SCENE";
+                                                                   : "one SCENE";
 }
 
 static int refuse_operand(command_id command, const char *word)

@@ -179,9 +179,8 @@ static const option rows[] = {
      .help = "Write a picture of |A - B| of two images. Black is 0, white is the 99th "
              "percentile and above, magenta is covered in one image only."},
     {.id = OPTION_FORCE,
-     .commands =
-         RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH | IN_VIEW |
-         IN_STATUS | IN_MERGE | IN_WEB,
+     .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH |
+                 IN_VIEW | IN_STATUS | IN_MERGE | IN_WEB,
      .common = IN_BAKE | IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,

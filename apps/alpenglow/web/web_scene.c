@@ -25,8 +25,7 @@ static int fail(const char *path, const char *text)
 static void report(message_log *messages, alp_log_level level, const char *code, const char *object,
                    const char *text)
 {
-    const alp_log_message logged = {
-        .level = level, .code = code, .object = object, .text = text};
+    const alp_log_message logged = {.level = level, .code = code, .object = object, .text = text};
     messages_log(messages, &logged);
 }
 
