@@ -2,7 +2,7 @@
 // node web.mjs FOLDER ALPENGLOW: opens the pages that web.sh wrote, by file://, clicks their switches
 // and compares what they show with the pictures of alpenglow render.
 import { execFileSync } from 'node:child_process';
-import { readFile, stat } from 'node:fs/promises';
+import { copyFile, readFile, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
 
@@ -118,6 +118,24 @@ async function checkOcclusion(page, scene) {
   await compare(page, `${scene} occlusion`, picture.png);
 }
 
+/// Two lamps, of which one is dimmed to nothing: what is left is the map of the other.
+async function checkLayers() {
+  const page = await open('layers.glb.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const options = ['--with', 'lightmap', '--exposure', String(exposure)];
+  await compare(page, 'layers', (await render('layers.glb', ...options)).png);
+  const before = await shoot(page);
+  const dimmer = page.getByLabel('lamp 0');
+  await dimmer.focus();
+  await page.keyboard.press('Home');
+  await copyFile(path.join(folder, 'maps', 'irradiance.lamp.exr'), path.join(folder, 'layers.light.exr'));
+  await compare(page, 'layers, one dimmed', (await render('layers.glb', ...options)).png);
+  const change = await difference(page, await shoot(page), before);
+  check('dimmer', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
+  await page.context().close();
+}
+
 async function checkCamera() {
   const page = await open('ao.gltf.html');
   await ready(page);
@@ -172,6 +190,7 @@ async function checkMessages() {
 }
 
 for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
+await checkLayers();
 await checkCamera();
 await checkPhone();
 await checkMessages();

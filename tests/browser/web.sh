@@ -29,6 +29,9 @@ page units.glb --maps light --samples 64 --lightmap-as extras --units irradiance
 page radiance.glb --maps light --samples 64 --lightmap-as extras --units radiance
 page blend.glb --maps light --samples 64 --lightmap-as moz --atlas blend
 page ao.gltf --maps ao
+"$alpenglow" bake builtin:cornell --size 128 -q -o layers.glb --samples 64 --lamp 0.3,0.5,0.2,1,0.2,0.4,1 \
+    --maps-dir maps --layers --lightmap-as extras --lightmap-format exr
+"$alpenglow" web layers.glb -q -o layers.glb.html --maps-dir maps
 cp ao.gltf '<img src=x onerror=alert(1)>.gltf'
 "$alpenglow" web '<img src=x onerror=alert(1)>.gltf' -q -o hostile.html
 node "$here/web.mjs" "$folder" "$alpenglow"

@@ -6,6 +6,7 @@ import { makeCamera } from 'alpenglow/camera.js';
 import { meter, setFilm } from 'alpenglow/film.js';
 import { findMaps, makeSwitch, replaceMaterials } from 'alpenglow/maps.js';
 import { buildPanel } from 'alpenglow/panel.js';
+import { makeLayers } from 'alpenglow/layers.js';
 import { loadScene } from 'alpenglow/scene.js';
 
 const canvas = document.getElementById('view');
@@ -51,13 +52,14 @@ function resize(renderer, camera) {
 }
 
 async function start(renderer) {
-  const { gltf, name } = await loadScene(renderer);
+  const { gltf, name, layers } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
   removeLamps(gltf.scene, bake);
   const view = makeCamera(gltf, canvas);
   const materials = replaceMaterials(gltf.scene);
+  const dim = layers.length > 0 ? makeLayers(layers, materials, renderer) : null;
   blendScene(gltf.scene, THREE.ShaderChunk);
   const found = findMaps(materials, bake);
   const apply = makeSwitch(materials, found);
@@ -89,7 +91,7 @@ async function start(renderer) {
     request();
   });
   view.controls.addEventListener('change', request);
-  buildPanel({ name, found, bake, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  buildPanel({ name, found, layers, dim, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
   draw();
   document.documentElement.dataset.ready = 'true';

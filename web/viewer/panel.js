@@ -31,6 +31,26 @@ function addSwitches({ found, state }, changed) {
   if (found.textures && found.light !== 'emission') addSwitch('colours', 'Colours', '', given);
 }
 
+/// A slider for each light.
+function addDimmers({ layers, dim, request }) {
+  layers.forEach((layer, i) => {
+    const line = document.createElement('label');
+    line.className = 'slider';
+    const value = document.createElement('output');
+    const slider = document.createElement('input');
+    Object.assign(slider, { type: 'range', min: 0, max: 200, step: 1, value: 100, id: `dimmer-${i}` });
+    line.htmlFor = slider.id; // an output could be labelled too
+    value.textContent = '100 %';
+    slider.addEventListener('input', () => {
+      value.textContent = `${slider.value} %`;
+      dim(i, slider.value / 100);
+      request();
+    });
+    line.append(layer.name, value, slider);
+    element('dimmers').append(line);
+  });
+}
+
 function notesOf({ found }) {
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
@@ -81,6 +101,7 @@ export function buildPanel(page) {
   element('notes').textContent = notesOf(page);
   element('licence').textContent = element('licence-text').textContent.trim();
   addSwitches(page, changed);
+  addDimmers(page);
   slider.addEventListener('input', () => expose(Number(slider.value)));
   element('auto').addEventListener('click', automatic);
   element('reset').addEventListener('click', () => {

@@ -74,7 +74,16 @@ class LightMapPlugin {
   }
 }
 
-/// @returns { gltf, name }
+/// The maps of single lights: [{ name, texture }].
+async function loadLayers(names, renderer) {
+  const elements = document.querySelectorAll('script.layer');
+  const uris = names.map((name, i) => `layer${i}.exr`);
+  const manager = managerOf(new Map(uris.map((uri, i) => [uri, URL.createObjectURL(new Blob([bytesOf(elements[i])]))])));
+  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer)));
+  return names.map((name, i) => ({ name, texture: textures[i] }));
+}
+
+/// @returns { gltf, name, layers }
 export async function loadScene(renderer) {
   const about = JSON.parse(document.getElementById('scene').textContent);
   const manager = managerOf(fileUrls(about.files));
@@ -87,5 +96,5 @@ export async function loadScene(renderer) {
   loader.setMeshoptDecoder(MeshoptDecoder);
   loader.register((parser) => new LightMapPlugin(parser, floats));
   const gltf = await loader.parseAsync(bytesOf(document.querySelector('script.asset')).buffer, '');
-  return { gltf, name: about.name };
+  return { gltf, name: about.name, layers: await loadLayers(about.layers, renderer) };
 }

@@ -107,6 +107,9 @@ static int run(const command_line *a, message_log *messages)
     int code = page != NULL ? check_scene(a, messages) : EXIT_FAILED;
     web_scene scene = {0};
     code = code == EXIT_DONE ? web_scene_read(&scene, a->operands[0], messages) : code;
+    if (code == EXIT_DONE && a->values[OPTION_MAPS_FOLDER].given) {
+        code = web_scene_read_layers(&scene, a->values[OPTION_MAPS_FOLDER].text);
+    }
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
     web_scene_release(&scene);
     free(page);

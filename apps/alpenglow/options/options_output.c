@@ -106,6 +106,16 @@ static const option rows[] = {
              "direction: direction.exr\n"
              "probes: scene.probes.json, .ktx2 and .moments.ktx2\n"
              "--ao-bleed: obscurance.exr, obscurance.png"},
+    {.id = OPTION_MAPS_FOLDER,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--maps-dir",
+     .value = "DIR",
+     .example = "maps",
+     .help = "Folder of bake --layers --maps-dir. The page holds the maps of single lights in it, "
+             "irradiance.NAME.exr, and dims each light. BAKED must hold light as a map "
+             "(--lightmap-as moz or extras)."},
     {.id = OPTION_MAPS_AS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

@@ -296,30 +296,46 @@ static void write_data(FILE *stream, const char *kind, const char *bytes, size_t
     fputs("</script>\n", stream);
 }
 
+static void write_names(FILE *stream, const web_file *files, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        fputs(i > 0 ? ", " : "", stream);
+        write_json_text(stream, files[i].uri);
+    }
+}
+
 void web_scene_write(FILE *stream, const web_scene *scene)
 {
     const char *slash = strrchr(scene->path, '/');
     fputs("<script type=\"application/json\" id=\"scene\">{\"name\": ", stream);
     write_json_text(stream, slash == NULL ? scene->path : slash + 1);
     fputs(", \"files\": [", stream);
-    for (size_t i = 0; i < scene->file_count; i++) {
-        fputs(i > 0 ? ", " : "", stream);
-        write_json_text(stream, scene->files[i].uri);
-    }
+    write_names(stream, scene->files, scene->file_count);
+    fputs("], \"layers\": [", stream);
+    write_names(stream, scene->layers, scene->layer_count);
     fputs("]}</script>\n", stream);
     write_data(stream, "asset", scene->bytes, scene->size);
     for (size_t i = 0; i < scene->file_count; i++) {
         write_data(stream, "file", scene->files[i].bytes, scene->files[i].size);
     }
+    for (size_t i = 0; i < scene->layer_count; i++) {
+        write_data(stream, "layer", scene->layers[i].bytes, scene->layers[i].size);
+    }
+}
+
+static void release_files(web_file *files, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        free(files[i].uri);
+        free(files[i].bytes);
+    }
+    free(files);
 }
 
 void web_scene_release(web_scene *scene)
 {
-    for (size_t i = 0; i < scene->file_count; i++) {
-        free(scene->files[i].uri);
-        free(scene->files[i].bytes);
-    }
-    free(scene->files);
+    release_files(scene->files, scene->file_count);
+    release_files(scene->layers, scene->layer_count);
     free(scene->bytes);
     json_decref(scene->document);
     *scene = (web_scene){0};

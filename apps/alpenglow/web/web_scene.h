@@ -24,6 +24,8 @@ typedef struct web_scene {
     json_t *document;
     web_file *files; // [file_count]
     size_t file_count;
+    web_file *layers; // [layer_count], maps of single lights by the light's name
+    size_t layer_count;
 } web_scene;
 
 /// The bytes of a file and a 0 after them, malloc'ed. NULL after a message.
@@ -33,6 +35,8 @@ char *web_read_file(const char *path, size_t *size);
 /// read, or lies outside of the folder of the asset, is left out with a warning.
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int web_scene_read(web_scene *scene, const char *path, message_log *messages);
+/// Reads the maps of single lights from a folder of bake --maps-dir, after web_scene_read.
+int web_scene_read_layers(web_scene *scene, const char *folder);
 /// Writes the elements of the page that hold the scene.
 void web_scene_write(FILE *stream, const web_scene *scene);
 void web_scene_release(web_scene *scene);

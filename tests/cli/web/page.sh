@@ -41,4 +41,13 @@ echo '{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_texture_basisu"]}' >
 try web missing.glb -o fault.html
 try web cut.glb -o fault.html
 try web basis.gltf -o fault.html
+mkdir empty
+try web baked.glb -o fault.html --maps-dir maps
+alpenglow bake builtin:cornell --maps light --samples 16 --size 16 -q -o moz.glb --lightmap-as moz --maps-dir maps
+try web moz.glb -o fault.html --maps-dir missing
+try web moz.glb -o fault.html --maps-dir empty
+try web moz.glb -o fault.html --maps-dir maps
+mv maps/irradiance.exr 'maps/irradiance.<b>.exr'
+alpenglow web moz.glb -q -o layers.html --maps-dir maps
+grep -o '"layers".*' layers.html
 ls fault.html 2>&1
