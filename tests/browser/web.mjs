@@ -136,6 +136,66 @@ async function checkLayers() {
   await page.context().close();
 }
 
+/// Where the camera of the box, which looks along +z, sees a point; and the normal that faces it.
+const eye = [0.278, 0.273, -0.8];
+const focal = side / 2 / Math.tan(0.686047912 / 2);
+function seenAt(point) {
+  const [x, y, z] = point.map((p, k) => p - eye[k]);
+  const length = Math.hypot(x, y, z);
+  return { pixel: [side / 2 - (focal * x) / z, side / 2 - (focal * y) / z].map(Math.floor), normal: [-x / length, -y / length, -z / length] };
+}
+
+/// What the page should show of a white surface: the film curve, in eight bits of sRGB.
+function displayed(irradiance) {
+  const film = 1 - Math.exp((-(2 ** exposure) * irradiance) / Math.PI);
+  return 255 * (film <= 0.0031308 ? 12.92 * film : 1.055 * film ** (1 / 2.4) - 0.055);
+}
+
+function sample(point, normal) {
+  const words = ['sample', 'builtin:cornell', '--with', 'probes', '--probes', path.join(folder, 'cornell.probes.json'), '--at', '-', '-q'];
+  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${[...point, ...normal].join()}\n` });
+  return printed.trim().split('\n').at(-1).split(',').slice(6, 9).map(Number);
+}
+
+async function pixelOf(page, [x, y]) {
+  const one = (await shoot(page)).toString('base64');
+  return page.evaluate(async ([text, u, v]) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(u, v, 1, 1).data];
+  }, [one, x, y]);
+}
+
+/// The sphere at two probes, where every look-up is the same, and dragged.
+async function checkProbes() {
+  const page = await open('probes.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const { origin, spacing } = JSON.parse(await readFile(path.join(folder, 'cornell.probes.json'), 'utf8'));
+  for (const index of [1, 2]) {
+    await page.focus('#sphere-x');
+    if (index === 2) await page.keyboard.press('End');
+    const point = origin.map((o, k) => o + (k === 0 ? index : 1) * spacing[k]);
+    const { pixel, normal } = seenAt(point);
+    const wanted = sample(point, normal).map(displayed);
+    const got = await pixelOf(page, pixel);
+    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
+    check(`sphere at probe ${index}`, worst <= 2, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}`);
+  }
+  const before = await page.inputValue('#sphere-y');
+  const { pixel } = seenAt(origin.map((o, k) => o + (k === 0 ? 2 : 1) * spacing[k]));
+  await page.evaluate(() => document.querySelector('#controls').removeAttribute('open')); // it lies over the picture
+  await page.mouse.move(...pixel);
+  await page.mouse.down();
+  await page.mouse.move(pixel[0], pixel[1] - 40, { steps: 4 });
+  await page.mouse.up();
+  const moved = (await page.inputValue('#sphere-y')) - before;
+  const expected = (40 * (origin[2] + spacing[2] - eye[2] - 0.05)) / focal;
+  check('sphere dragged', Math.abs(moved - expected) < 0.02, `by ${moved.toFixed(3)} m, ${expected.toFixed(3)} m in the picture`);
+  await page.context().close();
+}
+
 async function checkCamera() {
   const page = await open('ao.gltf.html');
   await ready(page);
@@ -193,6 +253,7 @@ async function checkMessages() {
 
 for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
 await checkLayers();
+await checkProbes();
 await checkCamera();
 await checkPhone();
 await checkMessages();

@@ -32,6 +32,8 @@ page ao.gltf --maps ao
 "$alpenglow" bake builtin:cornell --size 128 -q -o layers.glb --samples 64 --lamp 0.3,0.5,0.2,1,0.2,0.4,1 \
     --maps-dir maps --layers --lightmap-as extras --lightmap-format exr
 "$alpenglow" web layers.glb -q -o layers.glb.html --maps-dir maps
+"$alpenglow" probes builtin:cornell -o cornell.probes.json --spacing 0.2 -q
+"$alpenglow" web moz.glb -q -o probes.html --probes cornell.probes.json
 cp ao.gltf '<img src=x onerror=alert(1)>.gltf'
 "$alpenglow" web '<img src=x onerror=alert(1)>.gltf' -q -o hostile.html
 node "$here/web.mjs" "$folder" "$alpenglow"

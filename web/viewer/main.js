@@ -7,6 +7,7 @@ import { meter, setFilm } from 'alpenglow/film.js';
 import { findMaps, makeSwitch, replaceMaterials } from 'alpenglow/maps.js';
 import { buildPanel } from 'alpenglow/panel.js';
 import { makeLayers } from 'alpenglow/layers.js';
+import { makeSphere } from 'alpenglow/probes.js';
 import { loadScene } from 'alpenglow/scene.js';
 
 const canvas = document.getElementById('view');
@@ -52,7 +53,7 @@ function resize(renderer, camera) {
 }
 
 async function start(renderer) {
-  const { gltf, name, layers } = await loadScene(renderer);
+  const { gltf, name, layers, probes } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
@@ -70,11 +71,16 @@ async function start(renderer) {
   const draw = () => {
     waits = false;
     renderer.render(scene, view.camera);
+    if (sphere === null || !sphere.scene.visible) return;
+    renderer.autoClear = false;
+    renderer.render(sphere.scene, view.camera);
+    renderer.autoClear = true;
   };
   const request = () => {
     if (!waits) requestAnimationFrame(draw);
     waits = true;
   };
+  const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
   const film = (exposure) => {
     setFilm(renderer, state.light, exposure);
     request();
@@ -82,6 +88,7 @@ async function start(renderer) {
   const show = () => {
     apply(state);
     plain.visible = !state.light;
+    if (sphere !== null) sphere.scene.visible = state.light || found.light === null; // even light is no probe's
     request();
   };
   show();
@@ -91,7 +98,7 @@ async function start(renderer) {
     request();
   });
   view.controls.addEventListener('change', request);
-  buildPanel({ name, found, layers, dim, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  buildPanel({ name, found, layers, dim, sphere, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
   draw();
   document.documentElement.dataset.ready = 'true';

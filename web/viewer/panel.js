@@ -51,6 +51,30 @@ function addDimmers({ layers, dim, request }) {
   });
 }
 
+/// A slider for each axis of the sphere's place; they follow when it is dragged.
+function addPlaces({ sphere }) {
+  if (sphere === null) return;
+  const sliders = ['x', 'y', 'z'].map((axis) => {
+    const line = document.createElement('label');
+    line.className = 'slider';
+    const slider = document.createElement('input');
+    const range = { min: sphere.bounds.low[axis], max: sphere.bounds.high[axis] };
+    Object.assign(slider, { type: 'range', id: `sphere-${axis}`, step: (range.max - range.min) / 200 || 1, ...range });
+    slider.addEventListener('input', () => {
+      const point = sphere.position.clone();
+      point[axis] = Number(slider.value);
+      sphere.place(point);
+    });
+    line.append(`Sphere ${axis}`, slider);
+    element('places').append(line);
+    return { axis, slider };
+  });
+  const follow = () => sliders.forEach(({ axis, slider }) => (slider.value = sphere.position[axis]));
+  document.addEventListener('pointermove', follow);
+  sphere.place(sphere.bounds.low.clone().lerp(sphere.bounds.high, 0.5));
+  follow();
+}
+
 function notesOf({ found }) {
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
@@ -102,6 +126,7 @@ export function buildPanel(page) {
   element('licence').textContent = element('licence-text').textContent.trim();
   addSwitches(page, changed);
   addDimmers(page);
+  addPlaces(page);
   slider.addEventListener('input', () => expose(Number(slider.value)));
   element('auto').addEventListener('click', automatic);
   element('reset').addEventListener('click', () => {

@@ -83,7 +83,14 @@ async function loadLayers(names, renderer) {
   return names.map((name, i) => ({ name, texture: textures[i] }));
 }
 
-/// @returns { gltf, name, layers }
+/// The probes, { info, texture }, or null.
+async function loadProbes(info, renderer) {
+  if (info === null) return null;
+  const url = URL.createObjectURL(new Blob([bytesOf(document.querySelector('script.probes'))]));
+  return { info: { scale: 1, ...info }, texture: await new KTX2Loader().detectSupport(renderer).loadAsync(url) };
+}
+
+/// @returns { gltf, name, layers, probes }
 export async function loadScene(renderer) {
   const about = JSON.parse(document.getElementById('scene').textContent);
   const manager = managerOf(fileUrls(about.files));
@@ -96,5 +103,5 @@ export async function loadScene(renderer) {
   loader.setMeshoptDecoder(MeshoptDecoder);
   loader.register((parser) => new LightMapPlugin(parser, floats));
   const gltf = await loader.parseAsync(bytesOf(document.querySelector('script.asset')).buffer, '');
-  return { gltf, name: about.name, layers: await loadLayers(about.layers, renderer) };
+  return { gltf, name: about.name, layers: await loadLayers(about.layers, renderer), probes: await loadProbes(about.probes, renderer) };
 }

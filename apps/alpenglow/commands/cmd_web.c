@@ -110,6 +110,9 @@ static int run(const command_line *a, message_log *messages)
     if (code == EXIT_DONE && a->values[OPTION_MAPS_FOLDER].given) {
         code = web_scene_read_layers(&scene, a->values[OPTION_MAPS_FOLDER].text);
     }
+    if (code == EXIT_DONE && a->values[OPTION_PROBES].given) {
+        code = web_scene_read_probes(&scene, a->values[OPTION_PROBES].text);
+    }
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
     web_scene_release(&scene);
     free(page);

@@ -123,6 +123,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                    "built without three.js.",
          .files = {{"BAKED.glb, BAKED.gltf", "The scene, and the files that it names."},
                    {"DIR/irradiance.NAME.exr", "The map of a single light (--maps-dir)."},
+                   {"FILE.probes.json, FILE.probes.ktx2", "Probes (--probes)."},
                    {"OUT.html", "The page, with all of that inside."}},
          .examples = {{"Write a baked scene as a page:", "alpenglow web scene.glb -o scene.html"}}},
     [COMMAND_BENCH] =

@@ -116,6 +116,14 @@ static const option rows[] = {
      .help = "Folder of bake --layers --maps-dir. The page holds the maps of single lights in it, "
              "irradiance.NAME.exr, and dims each light. BAKED must hold light as a map "
              "(--lightmap-as moz or extras)."},
+    {.id = OPTION_PROBES,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--probes",
+     .value = "FILE.probes.json",
+     .help = "Grid of probes, as alpenglow probes writes it (sh9 or sh4). They light a white sphere "
+             "that can be dragged through the scene."},
     {.id = OPTION_MAPS_AS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

@@ -273,10 +273,9 @@ static void write_base64(FILE *stream, const char *bytes, size_t size)
     }
 }
 
-/// Writes a JSON text that can stand in a script element.
-static void write_json_text(FILE *stream, const char *text)
+/// Writes JSON that can stand in a script element.
+static void write_json(FILE *stream, const json_t *value)
 {
-    json_t *value = json_text(text);
     char *dump = value != NULL ? json_dumps(value, JSON_ENCODE_ANY) : NULL;
     for (const char *at = dump != NULL ? dump : "\"\""; *at != '\0'; at++) {
         if (*at == '<') {
@@ -286,6 +285,12 @@ static void write_json_text(FILE *stream, const char *text)
         }
     }
     free(dump);
+}
+
+static void write_json_text(FILE *stream, const char *text)
+{
+    json_t *value = json_text(text);
+    write_json(stream, value);
     json_decref(value);
 }
 
@@ -313,13 +318,22 @@ void web_scene_write(FILE *stream, const web_scene *scene)
     write_names(stream, scene->files, scene->file_count);
     fputs("], \"layers\": [", stream);
     write_names(stream, scene->layers, scene->layer_count);
-    fputs("]}</script>\n", stream);
+    fputs("], \"probes\": ", stream);
+    if (scene->probes != NULL) {
+        write_json(stream, scene->probes);
+    } else {
+        fputs("null", stream);
+    }
+    fputs("}</script>\n", stream);
     write_data(stream, "asset", scene->bytes, scene->size);
     for (size_t i = 0; i < scene->file_count; i++) {
         write_data(stream, "file", scene->files[i].bytes, scene->files[i].size);
     }
     for (size_t i = 0; i < scene->layer_count; i++) {
         write_data(stream, "layer", scene->layers[i].bytes, scene->layers[i].size);
+    }
+    if (scene->probes != NULL) {
+        write_data(stream, "probes", scene->probe_bytes, scene->probe_size);
     }
 }
 
@@ -336,6 +350,8 @@ void web_scene_release(web_scene *scene)
 {
     release_files(scene->files, scene->file_count);
     release_files(scene->layers, scene->layer_count);
+    free(scene->probe_bytes);
+    json_decref(scene->probes);
     free(scene->bytes);
     json_decref(scene->document);
     *scene = (web_scene){0};

@@ -26,6 +26,9 @@ typedef struct web_scene {
     size_t file_count;
     web_file *layers; // [layer_count], maps of single lights by the light's name
     size_t layer_count;
+    json_t *probes;    // NULL: none
+    char *probe_bytes; // [probe_size], their light as KTX2
+    size_t probe_size;
 } web_scene;
 
 /// The bytes of a file and a 0 after them, malloc'ed. NULL after a message.
@@ -37,6 +40,8 @@ char *web_read_file(const char *path, size_t *size);
 int web_scene_read(web_scene *scene, const char *path, message_log *messages);
 /// Reads the maps of single lights from a folder of bake --maps-dir, after web_scene_read.
 int web_scene_read_layers(web_scene *scene, const char *folder);
+/// Reads baked probes.
+int web_scene_read_probes(web_scene *scene, const char *path);
 /// Writes the elements of the page that hold the scene.
 void web_scene_write(FILE *stream, const web_scene *scene);
 void web_scene_release(web_scene *scene);

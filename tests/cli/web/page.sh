@@ -50,4 +50,9 @@ try web moz.glb -o fault.html --maps-dir maps
 mv maps/irradiance.exr 'maps/irradiance.<b>.exr'
 alpenglow web moz.glb -q -o layers.html --maps-dir maps
 grep -o '"layers".*' layers.html
+alpenglow probes builtin:cornell -o cube.probes.json --spacing 0.3 --basis ambient-cube -q
+try web moz.glb -o fault.html --probes cube.probes.json
+try web moz.glb -o fault.html --probes missing.probes.json
+rm cube.probes.ktx2
+try web moz.glb -o fault.html --probes cube.probes.json
 ls fault.html 2>&1
