@@ -8,8 +8,9 @@
 #                             what the Python module needs
 #   scripts/setup.sh cluster  what check needs, MPI, and Slurm for tests (some 140 MB)
 #
-# Packages come from Debian (apt-get, through sudo where not root); the file validator of the tests
-# and, where there is a browser, what runs in it come from npm; without them some tests are skipped.
+# Packages come from Debian (apt-get, through sudo where not root). From npm come three.js for the page
+# of alpenglow web, wherever npm is there, the file validator of the tests, and what runs in a browser,
+# where there is one; without them there is no page, and some tests are skipped.
 # Exit status: 0 all is there, 1 something is missing, 2 wrong usage.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -116,15 +117,15 @@ install_packages() {
         refuse "apt-get could not install everything (see above)" "$missing"
 }
 
-install_npm() { # folder, what becomes of its tests without: what package-lock.json pins, once per
-                # state of that file
+install_npm() { # folder, what is missing without: what package-lock.json pins, once per state of
+                # that file
     local folder=$1
     [ -f "$folder/package-lock.json" ] || return 0
     cmp -s "$folder/package-lock.json" "$folder/node_modules/.installed-for" && return 0
     say "installing the npm packages of $folder"
     if ! npm ci --prefix "$folder" --no-audit --no-fund --ignore-scripts >&2; then
-        say "npm ci failed in $folder (see above); the network is needed once. Going on: the"
-        say "tests that $2 will be skipped, and say so"
+        say "npm ci failed in $folder (see above); the network is needed once. Going on"
+        say "without: $2"
         return 0
     fi
     cp "$folder/package-lock.json" "$folder/node_modules/.installed-for"
@@ -143,9 +144,12 @@ esac
 
 missing=$(missing_packages "$wanted" | xargs)
 [ -z "$missing" ] || install_packages "$missing"
+if command -v npm >/dev/null 2>&1; then
+    install_npm web/viewer "alpenglow web will say what is missing"
+fi
 if [ "${1:-check}" != build ]; then
-    install_npm tests/validator "validate glTF files"
+    install_npm tests/validator "tests that validate glTF files will be skipped, and say so"
     if command -v chromium >/dev/null 2>&1; then
-        install_npm tests/browser "open files in a browser"
+        install_npm tests/browser "tests that open files in a browser will be skipped, and say so"
     fi
 fi

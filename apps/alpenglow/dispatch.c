@@ -24,6 +24,7 @@ static int (*const runs[COMMAND_COUNT])(const command_line *arguments) = {
     [COMMAND_VIEW] = command_view,
     [COMMAND_STATUS] = command_status,
     [COMMAND_MERGE] = command_merge,
+    [COMMAND_WEB] = command_web,
 };
 
 /// Proposes commands for a scene that stands alone.

@@ -82,7 +82,7 @@ static int meet_before_end(int code)
 static int check_command(const char *name)
 {
     static const char *const alone[] = {"render", "info",  "compare", "sample", "ambience", "lpv",
-                                        "sh",     "bench", "view",    "status", "merge"};
+                                        "sh",     "bench", "view",    "status", "merge",    "web"};
     char text[256];
     for (size_t i = 0; name != NULL && i < sizeof alone / sizeof *alone; i++) {
         if (strcmp(name, alone[i]) == 0) {

@@ -17,6 +17,7 @@ int command_sh(const command_line *arguments);
 int command_bench(const command_line *arguments);
 int command_status(const command_line *arguments);
 int command_merge(const command_line *arguments);
+int command_web(const command_line *arguments);
 int command_view(const command_line *arguments);
 
 #endif

@@ -73,6 +73,8 @@ completion completion_of_operand(command_id command)
         append(c.endings, endings, strlen(endings));
     } else if (command == COMMAND_SH) {
         append(c.endings, "hdr exr", strlen("hdr exr"));
+    } else if (command == COMMAND_WEB) {
+        append(c.endings, "glb gltf", strlen("glb gltf"));
     }
     return c;
 }

@@ -118,6 +118,14 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
                    "written.",
          .files = {{"DIR/shard-I.state, DIR/shard-I.tiles", "State and tiles of a shard."}},
          .examples = {{"Write the result of a job array:", "alpenglow merge work -o baked.glb"}}},
+    [COMMAND_WEB] =
+        {.failed = "BAKED could not be read, the page could not be written, or this alpenglow was "
+                   "built without three.js.",
+         .files = {{"BAKED.glb, BAKED.gltf", "The scene, and the files that it names."},
+                   {"DIR/irradiance.NAME.exr", "The map of a single light (--maps-dir)."},
+                   {"FILE.probes.json, FILE.probes.ktx2", "Probes (--probes)."},
+                   {"OUT.html", "The page, with all of that inside."}},
+         .examples = {{"Write a baked scene as a page:", "alpenglow web scene.glb -o scene.html"}}},
     [COMMAND_BENCH] =
         {.failed = "The measuring program, alpenglow-bench, is not installed, or a scene could not "
                    "be read.",

@@ -342,6 +342,7 @@ static const char *operand_names(command_id command)
     return command == COMMAND_COMPARE                              ? "two operands, A and B"
            : command == COMMAND_SH                                 ? "one image, ENV"
            : command == COMMAND_BENCH                              ? "one ROOM at most"
+           : command == COMMAND_WEB                                ? "one scene, BAKED"
            : command == COMMAND_STATUS || command == COMMAND_MERGE ? "one folder, DIR"
                                                                    : "one SCENE";
 }

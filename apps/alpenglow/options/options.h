@@ -24,6 +24,7 @@ typedef enum command_id {
     COMMAND_VIEW,
     COMMAND_STATUS,
     COMMAND_MERGE,
+    COMMAND_WEB,
     COMMAND_COUNT
 } command_id;
 
@@ -41,6 +42,7 @@ enum {
     IN_VIEW = 1 << COMMAND_VIEW,
     IN_STATUS = 1 << COMMAND_STATUS,
     IN_MERGE = 1 << COMMAND_MERGE,
+    IN_WEB = 1 << COMMAND_WEB,
 };
 
 /// Every option that can be given; OPTION_LATER stands for all that are not built yet.

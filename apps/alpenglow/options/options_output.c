@@ -45,6 +45,15 @@ static const option rows[] = {
      .help = "Write the asset (.glb, .gltf, .dae, .obj) or the folder of maps (another name) here, "
              "instead of where the bake would."},
     {.id = OPTION_OUTPUT,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "-o",
+     .alias = "--output",
+     .value = "OUT.html",
+     .help = "The page, required. It holds the scene, the files that the scene names, and three.js "
+             "with its licence."},
+    {.id = OPTION_OUTPUT,
      .commands = IN_SH,
      .group = GROUP_OUTPUT,
      .kind = KIND_TEXT,
@@ -97,6 +106,25 @@ static const option rows[] = {
              "direction: direction.exr\n"
              "probes: scene.probes.json, .ktx2 and .moments.ktx2\n"
              "--ao-bleed: obscurance.exr, obscurance.png"},
+    {.id = OPTION_MAPS_FOLDER,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--maps-dir",
+     .value = "DIR",
+     .example = "maps",
+     .help = "Folder of bake --layers --maps-dir. The page holds the maps of single lights in it, "
+             "irradiance.NAME.exr, and dims each light. BAKED must hold light as a map "
+             "(--lightmap-as moz or extras)."},
+    {.id = OPTION_PROBES,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--probes",
+     .value = "FILE.probes.json",
+     .help =
+         "Grid of probes, as alpenglow probes writes it (sh9 or sh4). They light a white sphere "
+         "that can be dragged through the scene."},
     {.id = OPTION_MAPS_AS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,
@@ -171,7 +199,7 @@ static const option rows[] = {
              "percentile and above, magenta is covered in one image only."},
     {.id = OPTION_FORCE,
      .commands = RAY_COMMANDS | IN_INFO | IN_COMPARE | IN_PROBES | IN_AMBIENCE | IN_LPV | IN_SH |
-                 IN_VIEW | IN_STATUS | IN_MERGE,
+                 IN_VIEW | IN_STATUS | IN_MERGE | IN_WEB,
      .common = IN_BAKE | IN_RENDER,
      .group = GROUP_OUTPUT,
      .kind = KIND_FLAG,

@@ -69,7 +69,7 @@ static const option rows[] = {
      .name = "--warnings-as-errors",
      .help = "Stop at the first warning and exit with 1."},
     {.id = OPTION_QUIET,
-     .commands = SCENE_COMMANDS | IN_COMPARE | IN_MERGE,
+     .commands = SCENE_COMMANDS | IN_COMPARE | IN_MERGE | IN_WEB,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-q",
@@ -85,8 +85,8 @@ static const option rows[] = {
      .alias = "--help",
      .help = "Print the options that people use. --help all: every option, in full."},
     {.id = OPTION_HELP,
-     .commands =
-         (SCENE_COMMANDS & ~RAY_COMMANDS) | IN_COMPARE | IN_SH | IN_BENCH | IN_STATUS | IN_MERGE,
+     .commands = (SCENE_COMMANDS & ~RAY_COMMANDS) | IN_COMPARE | IN_SH | IN_BENCH | IN_STATUS |
+                 IN_MERGE | IN_WEB,
      .group = GROUP_RUN,
      .kind = KIND_FLAG,
      .name = "-h",

@@ -75,8 +75,8 @@ static bool write_flushed(const char *path, const alpi_bytes *b)
     return good;
 }
 
-/// PATH.new becomes PATH, and the former PATH stays as PATH.old. PATH is there at every moment, but on
-/// a disk without links.
+/// PATH.new becomes PATH, and the former PATH stays as PATH.old. PATH is there at every moment, but
+/// on a disk without links.
 static bool replace(const char *path, const char *fresh, const char *old)
 {
     (void)unlink(old);

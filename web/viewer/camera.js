@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// The camera: the first one of the file, or one that sees the whole scene; orbit by mouse, touch and
+// keys.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+
+function boundsOf(root) {
+  const box = new THREE.Box3().setFromObject(root);
+  return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1)) : box;
+}
+
+function automatic(box) {
+  const camera = new THREE.PerspectiveCamera(40, 1, 0.01, 1000);
+  const radius = box.getSize(new THREE.Vector3()).length() / 2 || 1;
+  const distance = radius / Math.sin(THREE.MathUtils.degToRad(camera.fov / 2));
+  camera.position.set(0.5, 0.4, 1).normalize().multiplyScalar(distance).add(box.getCenter(new THREE.Vector3()));
+  camera.lookAt(box.getCenter(new THREE.Vector3()));
+  return camera;
+}
+
+function fromFile(gltf) {
+  let found = null;
+  gltf.scene.updateMatrixWorld(true);
+  gltf.scene.traverse((object) => {
+    found ??= object.isPerspectiveCamera ? object : null;
+  });
+  if (found === null) return null;
+  const camera = new THREE.PerspectiveCamera(found.fov, 1, found.near, found.far);
+  found.matrixWorld.decompose(camera.position, camera.quaternion, new THREE.Vector3());
+  return camera;
+}
+
+/// The point ahead of the camera, at the distance of the middle of the scene.
+function targetOf(camera, box) {
+  const ahead = camera.getWorldDirection(new THREE.Vector3());
+  const middle = box.getCenter(new THREE.Vector3()).sub(camera.position);
+  const size = box.getSize(new THREE.Vector3()).length() || 1;
+  return camera.position.clone().addScaledVector(ahead, Math.max(middle.dot(ahead), size / 20));
+}
+
+/// @returns { camera, controls, reset, turn, dolly }
+export function makeCamera(gltf, canvas) {
+  const box = boundsOf(gltf.scene);
+  const size = box.getSize(new THREE.Vector3()).length() || 1;
+  const camera = fromFile(gltf) ?? automatic(box);
+  camera.near = Math.max(camera.near, size * 1e-4);
+  camera.far = Math.max(size, camera.position.distanceTo(box.getCenter(new THREE.Vector3()))) * 10;
+  const target = targetOf(camera, box);
+  const start = { position: camera.position.clone(), quaternion: camera.quaternion.clone() };
+  const controls = new OrbitControls(camera, canvas); // turns the camera
+  controls.maxDistance = camera.far / 3;
+  const reset = () => {
+    controls.target.copy(target);
+    camera.position.copy(start.position);
+    controls.update();
+    camera.quaternion.copy(start.quaternion);
+  };
+  reset();
+  return { camera, controls, reset, turn: (x, y) => turn(camera, controls, x, y), dolly: (f) => dolly(camera, controls, f) };
+}
+
+function turn(camera, controls, x, y) {
+  const offset = camera.position.clone().sub(controls.target);
+  const place = new THREE.Spherical().setFromVector3(offset);
+  place.theta += x;
+  place.phi = THREE.MathUtils.clamp(place.phi + y, 0.01, Math.PI - 0.01);
+  camera.position.copy(controls.target).add(new THREE.Vector3().setFromSpherical(place));
+  controls.update();
+}
+
+function dolly(camera, controls, factor) {
+  camera.position.sub(controls.target).multiplyScalar(factor).add(controls.target);
+  controls.update();
+}

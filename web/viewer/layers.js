@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Dimmers: the light map of all materials becomes the sum of the maps of single lights, each times
+// its strength. The sum is drawn into a texture whenever a strength changes.
+import * as THREE from 'three';
+
+const vertexShader = 'varying vec2 at; void main() { at = uv; gl_Position = vec4( position.xy, 0.0, 1.0 ); }';
+const fragmentShader =
+  'uniform sampler2D map; uniform float strength; varying vec2 at; void main() { gl_FragColor = vec4( strength * texture2D( map, at ).rgb, 1.0 ); }';
+
+function quadOf(layer) {
+  const material = new THREE.ShaderMaterial({
+    uniforms: { map: { value: layer.texture }, strength: { value: 1 } },
+    vertexShader,
+    fragmentShader,
+    depthTest: false,
+    transparent: true,
+    blending: THREE.CustomBlending,
+    blendSrc: THREE.OneFactor,
+    blendDst: THREE.OneFactor,
+    toneMapped: false,
+  });
+  const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), material);
+  quad.frustumCulled = false;
+  return quad;
+}
+
+/// One texture for each coordinate set that materials read their light map with. Sets beyond the
+/// fourth belong to blended maps, whose shader has its own coordinates.
+function makeTargets(materials, { width, height }) {
+  const targets = new Map();
+  for (const material of materials.filter((m) => m.lightMap !== null)) {
+    const channel = material.lightMap.channel > 3 ? 0 : material.lightMap.channel;
+    if (!targets.has(channel)) {
+      const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.HalfFloatType, depthBuffer: false });
+      target.texture.channel = channel;
+      targets.set(channel, target);
+    }
+    material.lightMap = targets.get(channel).texture;
+    material.lightMapIntensity = 1;
+  }
+  return [...targets.values()];
+}
+
+/// Call it before the maps are switched or blended. @returns dim(index, strength)
+export function makeLayers(layers, materials, renderer) {
+  const targets = makeTargets(materials, layers[0].texture.image);
+  const scene = new THREE.Scene();
+  const quads = layers.map(quadOf);
+  scene.add(...quads);
+  const camera = new THREE.Camera();
+  const sum = () => {
+    const clear = renderer.getClearColor(new THREE.Color());
+    renderer.setClearColor(0x000000, 1);
+    for (const target of targets) {
+      renderer.setRenderTarget(target);
+      renderer.render(scene, camera);
+    }
+    renderer.setRenderTarget(null);
+    renderer.setClearColor(clear, 1);
+  };
+  sum();
+  return (index, strength) => {
+    quads[index].material.uniforms.strength.value = strength;
+    sum();
+  };
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The page of alpenglow web: loads its scene, builds the panel and draws when something changes.
+import * as THREE from 'three';
+import { blendScene } from 'alpenglow/three-blend.js';
+import { makeCamera } from 'alpenglow/camera.js';
+import { meter, setFilm } from 'alpenglow/film.js';
+import { findMaps, makeSwitch, replaceMaterials } from 'alpenglow/maps.js';
+import { buildPanel } from 'alpenglow/panel.js';
+import { makeLayers } from 'alpenglow/layers.js';
+import { makeSphere } from 'alpenglow/probes.js';
+import { loadScene } from 'alpenglow/scene.js';
+
+const canvas = document.getElementById('view');
+const message = document.getElementById('message');
+
+function stop(text) {
+  canvas.hidden = true;
+  message.hidden = false;
+  message.textContent = text;
+}
+
+/// A renderer, or null after a message.
+function makeRenderer() {
+  if (document.createElement('canvas').getContext('webgl2') === null) {
+    stop('This browser has no WebGL 2, which the scene needs. Open the page in another browser, or switch hardware acceleration on.');
+    return null;
+  }
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+  renderer.setClearColor(0x26292d);
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  return renderer;
+}
+
+/// Light of the same strength from all sides: a white surface becomes 1. A scene without maps has
+/// some from above too, so that its form can be seen.
+function plainLight(found) {
+  const group = new THREE.Group();
+  if (found.occlusion || found.light !== null) group.add(new THREE.AmbientLight(0xffffff, Math.PI));
+  else group.add(new THREE.HemisphereLight(0xffffff, 0x404040, Math.PI));
+  return group;
+}
+
+/// Lamps of the file light nothing unless the bake left their direct light to the viewer.
+function removeLamps(root, bake) {
+  if (bake?.light?.direct === 'off') return;
+  for (const lamp of root.getObjectsByProperty('isLight', true)) lamp.removeFromParent();
+}
+
+function resize(renderer, camera) {
+  renderer.setSize(innerWidth, innerHeight, false);
+  camera.aspect = innerWidth / innerHeight;
+  camera.updateProjectionMatrix();
+}
+
+async function start(renderer) {
+  const { gltf, name, layers, probes } = await loadScene(renderer);
+  const bake = gltf.asset?.extras?.alpenglow;
+  const scene = new THREE.Scene();
+  scene.add(gltf.scene);
+  removeLamps(gltf.scene, bake);
+  const view = makeCamera(gltf, canvas);
+  const materials = replaceMaterials(gltf.scene);
+  const dim = layers.length > 0 ? makeLayers(layers, materials, renderer) : null;
+  blendScene(gltf.scene, THREE.ShaderChunk);
+  const found = findMaps(materials, bake);
+  const apply = makeSwitch(materials, found);
+  const plain = plainLight(found);
+  scene.add(plain);
+  const state = { light: found.light !== null, occlusion: found.occlusion && found.light === null, colours: true };
+  let waits = false;
+  const draw = () => {
+    waits = false;
+    renderer.render(scene, view.camera);
+    if (sphere === null || !sphere.scene.visible) return;
+    renderer.autoClear = false;
+    renderer.render(sphere.scene, view.camera);
+    renderer.autoClear = true;
+  };
+  const request = () => {
+    if (!waits) requestAnimationFrame(draw);
+    waits = true;
+  };
+  const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
+  const film = (exposure) => {
+    setFilm(renderer, state.light, exposure);
+    request();
+  };
+  const show = () => {
+    apply(state);
+    plain.visible = !state.light;
+    if (sphere !== null) sphere.scene.visible = state.light || found.light === null; // even light is no probe's
+    request();
+  };
+  show();
+  resize(renderer, view.camera);
+  addEventListener('resize', () => {
+    resize(renderer, view.camera);
+    request();
+  });
+  view.controls.addEventListener('change', request);
+  buildPanel({ name, found, layers, dim, sphere, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  message.hidden = true;
+  draw();
+  document.documentElement.dataset.ready = 'true';
+}
+
+const renderer = makeRenderer();
+if (renderer !== null) start(renderer).catch((error) => stop(`The scene could not be shown: ${error.message}`));

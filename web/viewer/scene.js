@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The scene of the page: its bytes from the elements that hold them, loaded by GLTFLoader.
+import * as THREE from 'three';
+import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { HDRLoader } from 'three/addons/loaders/HDRLoader.js';
+import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
+
+function bytesOf(element) {
+  const text = atob(element.textContent);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+  element.textContent = ''; // the text is larger than the bytes
+  return bytes;
+}
+
+/// Blobs of the files beside the asset, by the name that the asset gives them.
+function fileUrls(names) {
+  const elements = document.querySelectorAll('script.file');
+  return new Map(names.map((name, i) => [name, URL.createObjectURL(new Blob([bytesOf(elements[i])]))]));
+}
+
+/// Nothing is fetched that is not in the page: other addresses become an empty one.
+function managerOf(urls) {
+  const manager = new THREE.LoadingManager();
+  manager.setURLModifier((url) => {
+    if (/^(blob|data):/.test(url)) return url;
+    return urls.get(url) ?? urls.get(decodeURIComponent(url)) ?? 'data:,';
+  });
+  return manager;
+}
+
+/// A texture of half floats or floats whose first row is v = 0. EXRLoader hands out rows from the
+/// bottom; HDRLoader has them flipped by WebGL.
+async function loadFloats(uri, manager, renderer) {
+  if (/\.ktx2$/i.test(uri)) return new KTX2Loader(manager).detectSupport(renderer).loadAsync(uri);
+  const isHdr = /\.hdr$/i.test(uri);
+  const texture = await new (isHdr ? HDRLoader : EXRLoader)(manager).loadAsync(uri);
+  texture.flipY = !isHdr;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/// Light maps that three.js does not read itself: MOZ_lightmap, and the file of extras.lightmap.
+class LightMapPlugin {
+  constructor(parser, floats) {
+    this.name = 'MOZ_lightmap';
+    this.parser = parser;
+    this.floats = floats;
+  }
+
+  async extendMaterialParams(index, params) {
+    const definition = this.parser.json.materials[index];
+    const moz = definition.extensions?.MOZ_lightmap;
+    const extra = definition.extras?.lightmap;
+    const found = moz ?? extra;
+    if (found === undefined || found === null) return;
+    const texture =
+      moz !== undefined ? await this.parser.getDependency('texture', moz.index) : await this.floats(extra.uri);
+    if (!texture) return;
+    const map = texture.clone();
+    map.channel = found.texCoord ?? 0;
+    map.colorSpace = THREE.LinearSRGBColorSpace;
+    if (moz === undefined) map.minFilter = map.magFilter = THREE.LinearFilter;
+    const intensity = found.intensity ?? 1;
+    if (found.units === 'radiance') {
+      map.userData.isRadiance = true; // all light that leaves the surface, its emission included
+      Object.assign(params, { emissive: new THREE.Color(1, 1, 1), emissiveMap: map, emissiveIntensity: intensity });
+    } else {
+      params.lightMap = map;
+      params.lightMapIntensity = found.units === 'irradiance/pi' ? Math.PI * intensity : intensity;
+    }
+  }
+}
+
+/// The maps of single lights: [{ name, texture }].
+async function loadLayers(names, renderer) {
+  const elements = document.querySelectorAll('script.layer');
+  const uris = names.map((name, i) => `layer${i}.exr`);
+  const manager = managerOf(new Map(uris.map((uri, i) => [uri, URL.createObjectURL(new Blob([bytesOf(elements[i])]))])));
+  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer)));
+  return names.map((name, i) => ({ name, texture: textures[i] }));
+}
+
+/// The probes, { info, texture }, or null.
+async function loadProbes(info, renderer) {
+  if (info === null) return null;
+  const url = URL.createObjectURL(new Blob([bytesOf(document.querySelector('script.probes'))]));
+  return { info: { scale: 1, ...info }, texture: await new KTX2Loader().detectSupport(renderer).loadAsync(url) };
+}
+
+/// @returns { gltf, name, layers, probes }
+export async function loadScene(renderer) {
+  const about = JSON.parse(document.getElementById('scene').textContent);
+  const manager = managerOf(fileUrls(about.files));
+  const loaded = new Map();
+  const floats = (uri) => {
+    if (!loaded.has(uri)) loaded.set(uri, loadFloats(uri, manager, renderer));
+    return loaded.get(uri);
+  };
+  const loader = new GLTFLoader(manager);
+  loader.setMeshoptDecoder(MeshoptDecoder);
+  loader.register((parser) => new LightMapPlugin(parser, floats));
+  const gltf = await loader.parseAsync(bytesOf(document.querySelector('script.asset')).buffer, '');
+  return { gltf, name: about.name, layers: await loadLayers(about.layers, renderer), probes: await loadProbes(about.probes, renderer) };
+}
