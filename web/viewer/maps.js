@@ -5,6 +5,14 @@ import * as THREE from 'three';
 
 const copied = ['name', 'color', 'map', 'aoMap', 'aoMapIntensity', 'lightMap', 'lightMapIntensity', 'emissive', 'emissiveIntensity', 'emissiveMap', 'alphaMap', 'alphaTest', 'opacity', 'transparent', 'depthWrite', 'side', 'vertexColors', 'userData'];
 
+/// Coarser levels of an atlas mix its charts, and draw dark lines along their borders. Maps of an atlas
+/// have coordinates of their own.
+function readFinestLevel(texture) {
+  if (!texture || texture.channel === 0) return;
+  texture.minFilter = THREE.LinearFilter;
+  texture.generateMipmaps = false;
+}
+
 function lambertOf(material) {
   const result = new THREE.MeshLambertMaterial();
   for (const key of copied) {
@@ -17,6 +25,7 @@ function lambertOf(material) {
     result.color = new THREE.Color(0);
     result.map = null;
   }
+  for (const key of ['aoMap', 'lightMap', 'emissiveMap']) readFinestLevel(result[key]);
   return result;
 }
 
