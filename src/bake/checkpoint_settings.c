@@ -40,26 +40,13 @@ static void add_text(alpi_bytes *b, const char *name, const char *text)
 
 // --- the scene -----------------------------------------------------------------------------------
 
-/// Fingerprint of shape and lights, which a pose moves.
-static uint64_t hash_pose(const alp_scene *scene)
-{
-    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, scene->positions,
-                                    scene->vertex_count * sizeof *scene->positions);
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        const alpi_light *l = &scene->lights[i];
-        hash = alpi_hash_bytes(hash, &l->position, sizeof l->position);
-        hash = alpi_hash_bytes(hash, &l->direction, sizeof l->direction);
-    }
-    return hash;
-}
-
 static void add_scene(const alpi_bake_job *job, alpi_bytes *b)
 {
     const alp_scene *scene = job->scene;
     add_text(b, "alpenglow", alp_version());
     add_text(b, "instructions", alpi_context_isa(job->context));
     add_hash(b, "SCENE-content", scene->input_hash);
-    add_hash(b, "pose", hash_pose(scene));
+    add_hash(b, "pose", alpi_scene_pose_hash(scene));
     add_count(b, "triangles", scene->triangle_count);
     add_text(b, "--metals", scene->metals_black ? "black" : "diffuse");
 }

@@ -23,6 +23,7 @@ typedef struct bake_kind {
     alp_progress_fn *progress;
     double time_limit;
     bool shard;
+    void (*alter)(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp); // of probes; or NULL
 } bake_kind;
 
 static const bake_kind OCCLUSION = {
@@ -95,8 +96,9 @@ static void keep_maps(test_rank *r, const alp_lightmap *l)
     }
 }
 
-static void bake_probes(test_rank *r, const alp_scene *scene, const alp_lamp *lamp)
+static void bake_probes(test_rank *r, alp_scene *scene, alp_lamp *lamp)
 {
+    const bake_kind *kind = r->what;
     alp_probe_options o = alp_probe_options_default();
     alp_probes *probes = NULL;
     o.lighting.lamps = lamp;
@@ -105,6 +107,9 @@ static void bake_probes(test_rank *r, const alp_scene *scene, const alp_lamp *la
     o.atlas_size = 32;
     o.rays = 384;
     o.layers = o.direct = true;
+    if (kind->alter != NULL) {
+        kind->alter(scene, &o, lamp);
+    }
     r->result = alp_probes_bake(scene, &o, &probes);
     if (r->result == ALP_OK) {
         const alpi_probe_volume *v = &probes->volume;
@@ -350,6 +355,56 @@ TEST(ranks_with_other_options_refuse)
         &(test_ranks_options){.count = 3, .workers = 1, .what = {&OCCLUSION, &OCCLUSION, &scene}},
         bake, ranks);
     check_all_fail(ranks, 3, 2, "the ranks run different bakes");
+}
+
+static void alter_cone(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)o;
+    lamp->outer_cone = 0.5f;
+}
+
+static void alter_sides(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)lamp;
+    o->one_sided = true;
+}
+
+static void alter_page(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)lamp;
+    o->atlas_size = 48;
+}
+
+static void alter_metals(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)o, (void)lamp;
+    scene->metals_black = true;
+}
+
+static void alter_pose(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)o, (void)lamp;
+    scene->positions[0][0] += 0.01f;
+}
+
+TEST(ranks_with_other_probes_refuse)
+{
+    static const struct {
+        void (*alter)(alp_scene *, alp_probe_options *, alp_lamp *);
+        const char *text;
+    } cases[] = {{alter_cone, "\"light "},
+                 {alter_sides, "\"one-sided 0\""},
+                 {alter_page, "\"size 32\""},
+                 {alter_metals, "\"metals 0\""},
+                 {alter_pose, "\"pose "}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        test_rank ranks[2];
+        bake_kind other = PROBES;
+        other.alter = cases[i].alter;
+        test_ranks_run(&(test_ranks_options){.count = 2, .workers = 1, .what = {&PROBES, &other}},
+                       bake, ranks);
+        check_all_fail(ranks, 2, 1, cases[i].text);
+    }
 }
 
 TEST(ranks_refuse_time_limits_and_shards)
