@@ -216,7 +216,7 @@ typedef struct alp_sampling_options {
     /// memory of Embree, jansson, libpng, libjpeg and OpenEXR. A bake that would hold more fails
     /// with LIMIT, and the message names the stage. Maps that cannot fit fail before any ray is
     /// traced. Light keeps the rays of its patches in the rest, or traces them again in each pass:
-    /// the bits are the same.
+    /// the bits are the same. Ranks use the lowest limit of all.
     uint64_t memory_limit;
     /// true: a cancelled bake ends with its results so far. Light has none before its first round
     /// ends, and is then not denoised, with a warning (not-denoised). Default false: no result.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "bake/bake_checkpoint.h"
 
+#include "bake/bake_memory.h"
 #include "bake/checkpoint_settings.h"
 #include "bake/settings.h"
 #include "base/tiles/checkpoint.h"
@@ -130,7 +131,7 @@ alp_result alpi_bake_begin_ranks(alpi_bake_job *job)
         settings.failed ? ALP_ERROR_OUT_OF_MEMORY
                         : alpi_ranks_begin(job->context, (const char *)settings.bytes, &began);
     alpi_bytes_destroy(&settings);
-    return result;
+    return result == ALP_OK ? alpi_bake_share_budget(job) : result;
 }
 
 // --- opening and closing -------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 
 #include "bake/light/light_settings.h"
 #include "bake/settings.h"
+#include "base/tiles/rank_calls.h"
 #include "maps/radiosity/patches.h"
 
 #include <stdio.h>
@@ -45,7 +46,9 @@ static size_text name_size(double bytes)
 static const char *name_limit(const alpi_bake_job *job)
 {
     return job->options.sampling.memory_limit > 0 ? "--memory-limit"
-                                                  : "nine tenths of the machine's memory,";
+           : alpi_context_ranks(job->context) != NULL
+               ? "nine tenths of the memory of the smallest machine,"
+               : "nine tenths of the machine's memory,";
 }
 
 static const char *advise(const alpi_bake_job *job)
@@ -57,21 +60,40 @@ static const char *advise(const alpi_bake_job *job)
 
 // --- the budget ----------------------------------------------------------------------------------
 
-static uint64_t find_limit(const alp_bake_options *options)
+/// Bytes, at least 1; UINT64_MAX: any.
+static uint64_t find_limit(const alpi_bake_job *job)
 {
+    const uint64_t asked = job->options.sampling.memory_limit,
+                   left = alpi_memory_left(job->context);
     const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
-    return options->sampling.memory_limit > 0 ? options->sampling.memory_limit
-           : pages > 0 && page_size > 0       ? (uint64_t)pages / 10 * 9 * (uint64_t)page_size
-                                              : 0;
+    const uint64_t limit = asked > 0 ? asked
+                           : pages > 0 && page_size > 0
+                               ? (uint64_t)pages / 10 * 9 * (uint64_t)page_size
+                               : UINT64_MAX;
+    const uint64_t least = limit < left ? limit : left;
+    return least > 0 ? least : 1;
+}
+
+/// Sets the budget of the context. @return the one before
+static alpi_budget set_limit(alpi_bake_job *job, uint64_t limit)
+{
+    const bool any = limit > UINT64_MAX - job->held;
+    job->memory_limit = any ? 0 : limit;
+    return alpi_set_budget(job->context, (alpi_budget){.limit = any ? 0 : job->held + limit});
 }
 
 void alpi_bake_begin_budget(alpi_bake_job *job)
 {
-    const uint64_t held = alpi_memory_held(job->context);
-    job->memory_limit = find_limit(&job->options);
-    const bool any = job->memory_limit == 0 || job->memory_limit > UINT64_MAX - held;
-    job->budget =
-        alpi_set_budget(job->context, (alpi_budget){.limit = any ? 0 : held + job->memory_limit});
+    job->held = alpi_memory_held(job->context);
+    job->budget = set_limit(job, find_limit(job));
+}
+
+alp_result alpi_bake_share_budget(alpi_bake_job *job)
+{
+    uint64_t limit = job->memory_limit > 0 ? job->memory_limit : UINT64_MAX;
+    ALP_TRY(alpi_ranks_lowest(job->context, &limit));
+    (void)set_limit(job, limit);
+    return ALP_OK;
 }
 
 alp_result alpi_bake_end_budget(alpi_bake_job *job, alp_result result)
@@ -80,8 +102,7 @@ alp_result alpi_bake_end_budget(alpi_bake_job *job, alp_result result)
     if (result != ALP_ERROR_OUT_OF_MEMORY || spent.wanted == 0) {
         return result;
     }
-    const uint64_t before = spent.limit - job->memory_limit; // held before the bake
-    const uint64_t held = spent.held > before ? spent.held - before : 0;
+    const uint64_t held = spent.held > job->held ? spent.held - job->held : 0;
     return alpi_fail(job->context, ALP_ERROR_LIMIT,
                      "bake: stage \"%s\" would need more than %s %s (it holds %s and wants %s "
                      "more); %s",

@@ -6,8 +6,11 @@
 #include "bake/job.h"
 
 /// Keeps the allocations of the bake within options.sampling.memory_limit, or nine tenths of the
-/// machine's memory.
+/// machine's memory, and within the budget that the context has.
 void alpi_bake_begin_budget(alpi_bake_job *job);
+/// Lowers the limit to the lowest of all ranks, whose machines may have less memory: loops are
+/// chosen by it. @return as alpi_ranks_lowest
+alp_result alpi_bake_share_budget(alpi_bake_job *job);
 /// Restores the context's own budget. @return the result of the bake; LIMIT, with a message that
 /// names the stage, in place of OUT_OF_MEMORY where the budget refused an allocation
 alp_result alpi_bake_end_budget(alpi_bake_job *job, alp_result result);

@@ -96,6 +96,7 @@ typedef struct alpi_bake_job {
     alpi_watch told;       // progress of the caller, while a checkpoint notes it
     const char *stage;     // that allocates now
     uint64_t memory_limit; // bytes that the bake may hold beside those held before it; 0: any
+    uint64_t held;         // bytes before the bake
     alpi_budget budget;    // of the context, before the bake
     // The stages that gather fill these, and store moves them to the pages of the lightmap. All are
     // [texels], and NULL unless a map needs them.

@@ -2,6 +2,7 @@
 // Making, checking and asking a scene.
 #include "scene/scene.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/plural.h"
 #include "scene/blend_weights.h"
@@ -443,4 +444,16 @@ alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index)
             .target = {0.0f, 0.0f, -1.0f}, .up = {0.0f, 1.0f, 0.0f}, .vertical_fov = 0.8f};
     }
     return index < scene->camera_count ? scene->cameras[index] : alpi_viewpoint_usual(scene);
+}
+
+uint64_t alpi_scene_pose_hash(const alp_scene *scene)
+{
+    uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, scene->positions,
+                                    scene->vertex_count * sizeof *scene->positions);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const alpi_light *l = &scene->lights[i];
+        hash = alpi_hash_bytes(hash, &l->position, sizeof l->position);
+        hash = alpi_hash_bytes(hash, &l->direction, sizeof l->direction);
+    }
+    return hash;
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 // Shapes of calls that are no loops. Those of loops are hashes.
-enum { SHAPE_BEGIN = 1, SHAPE_END = 2 };
+enum { SHAPE_BEGIN = 1, SHAPE_END = 2, SHAPE_LOWEST = 3 };
 
 alp_ranks alp_ranks_default(void)
 {
@@ -172,6 +172,32 @@ alp_result alpi_ranks_begin(alp_context *context, const char *settings, bool *be
     const alp_result result = begin(context, settings, bytes, size);
     alpi_release(context, bytes);
     return result;
+}
+
+static bool take_lower(void *user, uint32_t rank, const uint8_t *bytes, size_t size)
+{
+    (void)rank;
+    uint64_t *value = user, other = 0;
+    if (size != sizeof other) {
+        return false;
+    }
+    memcpy(&other, bytes, size);
+    *value = other < *value ? other : *value;
+    return true;
+}
+
+alp_result alpi_ranks_lowest(alp_context *context, uint64_t *value)
+{
+    uint8_t bytes[sizeof(alpi_rank_head) + sizeof *value];
+    if (alpi_ranks_now(context) == NULL) {
+        return ALP_OK;
+    }
+    memcpy(bytes + sizeof(alpi_rank_head), value, sizeof *value);
+    return alpi_rank_exchange(context, &(alpi_rank_call){.shape = SHAPE_LOWEST,
+                                                         .bytes = bytes,
+                                                         .size = sizeof bytes,
+                                                         .take = take_lower,
+                                                         .user = value});
 }
 
 /// Leaves no tile of the next loop to others, so that they see the failure soon.

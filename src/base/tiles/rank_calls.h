@@ -40,6 +40,10 @@ alp_result alpi_rank_exchange(alp_context *context, const alpi_rank_call *call);
 /// @param began out: alpi_ranks_end must follow
 /// @return ALP_OK; IO (a rank is gone, or has other settings); OUT_OF_MEMORY
 alp_result alpi_ranks_begin(alp_context *context, const char *settings, bool *began);
+/// Replaces a value by the lowest of all ranks, so that they choose alike by it. Every rank makes
+/// this call. Without ranks that work together the value stays.
+/// @return as alpi_rank_exchange
+alp_result alpi_ranks_lowest(alp_context *context, uint64_t *value);
 /// Ends it, and lets all ranks know whether this one failed.
 /// @return the own result; else that of another rank, as in alpi_rank_exchange
 alp_result alpi_ranks_end(alp_context *context, alp_result result);

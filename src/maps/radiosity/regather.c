@@ -33,8 +33,12 @@ static alp_result prepare(alpi_regather *r, uint64_t kept_limit, const alpi_task
             r->list[r->traced++] = t;
         }
     }
-    if (!alpi_gather_meets_cells(r->options.gather->from) || r->traced == 0 ||
-        alpi_kept_rays_size(g) * r->traced > alpi_kept_rays_limit(context, kept_limit)) {
+    if (!alpi_gather_meets_cells(r->options.gather->from) || r->traced == 0) {
+        return ALP_OK;
+    }
+    uint64_t limit;
+    ALP_TRY(alpi_kept_rays_limit(context, kept_limit, &limit));
+    if (alpi_kept_rays_size(g) * r->traced > limit) {
         return ALP_OK;
     }
     const alpi_gather_job job = job_of(r);

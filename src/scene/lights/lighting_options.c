@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Light beside the file's: defaults and checks.
+// Light beside the file's: defaults, checks and fingerprint.
 #include "scene/lights/lighting_options.h"
 
+#include "base/hash.h"
+#include "base/image.h"
 #include "scene/double3.h"
 
 enum { LAMP_LIMIT = 1000000 };
@@ -156,4 +158,60 @@ vec3 alpi_sun_direction(const alp_sun_options *sun)
     double azimuth = (double)sun->azimuth, elevation = (double)sun->elevation;
     return (vec3){(float)(sin(azimuth) * cos(elevation)), (float)sin(elevation),
                   (float)(cos(azimuth) * cos(elevation))};
+}
+
+// --- fingerprint ---------------------------------------------------------------------------------
+
+/// By value: structures have padding, enumerations any size.
+static uint64_t hash_number(uint64_t hash, uint32_t number)
+{
+    return alpi_hash_bytes(hash, &number, sizeof number);
+}
+
+static uint64_t hash_floats(uint64_t hash, const float *values, size_t count)
+{
+    return alpi_hash_bytes(hash, values, count * sizeof *values);
+}
+
+static uint64_t hash_image(uint64_t hash, const alp_image *image)
+{
+    const alp_image_info i = image->info;
+    const size_t size = i.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
+    hash = hash_number(hash_number(hash, i.width), i.height);
+    hash = hash_number(hash_number(hash, i.channels), (uint32_t)i.component);
+    return alpi_hash_bytes(hash, image->pixels, (size_t)i.width * i.height * i.channels * size);
+}
+
+static uint64_t hash_sky(uint64_t hash, const alp_sky_options *sky)
+{
+    const float numbers[] = {sky->turn, sky->strength, sky->turbidity};
+    hash = hash_number(hash, (uint32_t)sky->kind);
+    hash = hash_floats(hash, sky->up, 3);
+    hash = hash_floats(hash, sky->down, 3);
+    hash = hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
+    return sky->image != NULL ? hash_image(hash, sky->image) : hash;
+}
+
+static uint64_t hash_lamp(uint64_t hash, const alp_lamp *lamp)
+{
+    const float numbers[] = {lamp->intensity, lamp->inner_cone, lamp->outer_cone};
+    hash = hash_number(hash, (uint32_t)lamp->kind);
+    hash = hash_floats(hash, lamp->position, 3);
+    hash = hash_floats(hash, lamp->direction, 3);
+    hash = hash_floats(hash, lamp->color, 3);
+    return hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
+}
+
+uint64_t alpi_lighting_options_hash(const alp_lighting_options *o)
+{
+    const float numbers[] = {o->sun.azimuth, o->sun.elevation, o->sun.illuminance, o->sun.size,
+                             o->file_sun_size};
+    uint64_t hash = hash_sky(ALPI_HASH_START, &o->sky);
+    hash = hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
+    hash = hash_floats(hash, o->sun.color, 3);
+    hash = hash_number(hash, o->lamp_count);
+    for (uint32_t i = 0; i < o->lamp_count && o->lamps != NULL; i++) {
+        hash = hash_lamp(hash, &o->lamps[i]);
+    }
+    return hash;
 }

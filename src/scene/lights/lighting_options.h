@@ -10,6 +10,10 @@
 /// @return ALP_OK; INVALID_ARGUMENT (named)
 alp_result alpi_lighting_options_check(alp_context *context, const alp_lighting_options *options);
 
+/// Fingerprint of all fields by value, with the lamps and the pixels of a sky image. The options
+/// need no check before.
+uint64_t alpi_lighting_options_hash(const alp_lighting_options *options);
+
 /// A checked lamp as a light. @param name borrowed
 alpi_light alpi_lamp_light(const alp_lamp *lamp, char *name);
 

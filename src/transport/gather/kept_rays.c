@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/tasks.h"
+#include "base/tiles/rank_calls.h"
 
 #include <assert.h>
 
@@ -14,11 +15,12 @@ uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
     return (uint64_t)gatherer->packet_count * ALPI_PACKET * sizeof(uint32_t);
 }
 
-uint64_t alpi_kept_rays_limit(const alp_context *context, uint64_t most)
+alp_result alpi_kept_rays_limit(alp_context *context, uint64_t most, uint64_t *limit)
 {
     const uint64_t left = alpi_memory_left(context), spare = alpi_memory_held(context) / 4;
     const uint64_t room = left == UINT64_MAX ? left : left > spare ? left - spare : 0;
-    return room < most ? room : most;
+    *limit = room < most ? room : most;
+    return alpi_ranks_lowest(context, limit);
 }
 
 alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,

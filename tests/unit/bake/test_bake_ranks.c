@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Bakes of several ranks, without MPI: the same bits as one process, for any number of ranks and
 // workers. A rank that fails, stops or is gone ends all of them with a message.
+#include "base/memory.h"
+#include "base/tiles/rank_calls.h"
 #include "fields/probes/probes.h"
+#include "transport/gather/kept_rays.h"
 
 #include "test_ranks.h"
 #include "test_scenes.h"
@@ -23,6 +26,8 @@ typedef struct bake_kind {
     alp_progress_fn *progress;
     double time_limit;
     bool shard;
+    uint64_t budget; // of the context, bytes beside the scene; 0: none
+    void (*alter)(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp); // of probes; or NULL
 } bake_kind;
 
 static const bake_kind OCCLUSION = {
@@ -95,8 +100,9 @@ static void keep_maps(test_rank *r, const alp_lightmap *l)
     }
 }
 
-static void bake_probes(test_rank *r, const alp_scene *scene, const alp_lamp *lamp)
+static void bake_probes(test_rank *r, alp_scene *scene, alp_lamp *lamp)
 {
+    const bake_kind *kind = r->what;
     alp_probe_options o = alp_probe_options_default();
     alp_probes *probes = NULL;
     o.lighting.lamps = lamp;
@@ -105,6 +111,9 @@ static void bake_probes(test_rank *r, const alp_scene *scene, const alp_lamp *la
     o.atlas_size = 32;
     o.rays = 384;
     o.layers = o.direct = true;
+    if (kind->alter != NULL) {
+        kind->alter(scene, &o, lamp);
+    }
     r->result = alp_probes_bake(scene, &o, &probes);
     if (r->result == ALP_OK) {
         const alpi_probe_volume *v = &probes->volume;
@@ -160,6 +169,10 @@ static void bake(test_rank *r)
     if (r->result == ALP_OK && kind->probes) {
         bake_probes(r, scene, &lamp);
     } else if (r->result == ALP_OK) {
+        if (kind->budget > 0) {
+            const uint64_t held = alpi_memory_held(r->context);
+            alpi_set_budget(r->context, (alpi_budget){.limit = held + kind->budget});
+        }
         bake_maps(r, scene, &lamp);
     }
     alp_scene_destroy(scene);
@@ -262,6 +275,66 @@ TEST(a_slow_rank_changes_no_bit)
     release(&alone, 1);
 }
 
+/// Machines of 512 KB to 64 MB beside others: rays are kept on all or on none.
+TEST(a_rank_with_less_memory_changes_no_bit)
+{
+    test_rank alone, ranks[3];
+    uint32_t baked = 0, refused = 0;
+    run(&LIGHT, 1, 1, &alone);
+    for (uint64_t budget = 1 << 19; budget < 1 << 26; budget = budget * 5 / 4) {
+        bake_kind poor = LIGHT;
+        poor.budget = budget;
+        test_ranks_run(
+            &(test_ranks_options){.count = 3, .workers = 1, .what = {&LIGHT, &poor, &LIGHT}}, bake,
+            ranks);
+        if (ranks[1].result == ALP_OK) {
+            check_same(&alone, ranks, 3);
+            baked++;
+            continue;
+        }
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(ranks[i].result, ALP_ERROR_LIMIT);
+        }
+        // A forecast beyond the shared limit is refused by every rank itself.
+        assert_true(refused > 0 || strncmp(ranks[0].message, "bake: stage", 11) == 0);
+        release(ranks, 3);
+        refused++;
+    }
+    assert_true(baked > 4);
+    assert_true(refused > 0);
+    release(&alone, 1);
+}
+
+/// Holds bytes of its own, as buffers of threads do, and finds the room for kept rays.
+static void find_room(test_rank *r)
+{
+    bool began;
+    uint64_t limit = 0;
+    alpi_set_budget(r->context, (alpi_budget){.limit = 1 << 20});
+    void *held = alpi_allocate(r->context, 1000 * (r->rank + 1), 1);
+    r->result = alpi_ranks_begin(r->context, "", &began);
+    if (r->result == ALP_OK) {
+        r->result = alpi_kept_rays_limit(r->context, UINT64_MAX, &limit);
+    }
+    r->result = alpi_ranks_end(r->context, r->result);
+    alpi_release(r->context, held);
+    keep(r, &limit, sizeof limit);
+}
+
+TEST(ranks_have_the_same_room_for_kept_rays)
+{
+    test_rank ranks[3];
+    const uint64_t held = 3000, least = (1 << 20) - held - held / 4;
+    test_ranks_run(&(test_ranks_options){.count = 3, .workers = 1}, find_room, ranks);
+    for (int i = 0; i < 3; i++) {
+        uint64_t limit = 0;
+        assert_int_equal(ranks[i].result, ALP_OK);
+        memcpy(&limit, ranks[i].bytes, sizeof limit);
+        assert_int_equal(limit, least);
+    }
+    release(ranks, 3);
+}
+
 // --- faults --------------------------------------------------------------------------------------
 
 /// All ranks fail. The lowest rank other than `cause` has a message with this text.
@@ -350,6 +423,56 @@ TEST(ranks_with_other_options_refuse)
         &(test_ranks_options){.count = 3, .workers = 1, .what = {&OCCLUSION, &OCCLUSION, &scene}},
         bake, ranks);
     check_all_fail(ranks, 3, 2, "the ranks run different bakes");
+}
+
+static void alter_cone(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)o;
+    lamp->outer_cone = 0.5f;
+}
+
+static void alter_sides(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)lamp;
+    o->one_sided = true;
+}
+
+static void alter_page(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)scene, (void)lamp;
+    o->atlas_size = 48;
+}
+
+static void alter_metals(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)o, (void)lamp;
+    scene->metals_black = true;
+}
+
+static void alter_pose(alp_scene *scene, alp_probe_options *o, alp_lamp *lamp)
+{
+    (void)o, (void)lamp;
+    scene->positions[0][0] += 0.01f;
+}
+
+TEST(ranks_with_other_probes_refuse)
+{
+    static const struct {
+        void (*alter)(alp_scene *, alp_probe_options *, alp_lamp *);
+        const char *text;
+    } cases[] = {{alter_cone, "\"light "},
+                 {alter_sides, "\"one-sided 0\""},
+                 {alter_page, "\"size 32\""},
+                 {alter_metals, "\"metals 0\""},
+                 {alter_pose, "\"pose "}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        test_rank ranks[2];
+        bake_kind other = PROBES;
+        other.alter = cases[i].alter;
+        test_ranks_run(&(test_ranks_options){.count = 2, .workers = 1, .what = {&PROBES, &other}},
+                       bake, ranks);
+        check_all_fail(ranks, 2, 1, cases[i].text);
+    }
 }
 
 TEST(ranks_refuse_time_limits_and_shards)
