@@ -169,8 +169,6 @@ static void add_light(const alp_bake_options *all, alpi_bytes *b)
     add_count(b, "--hemicube", o->hemicube);
     add_count(b, "--emitters", (uint64_t)o->emitters);
     add_count(b, "--layers", o->layers);
-    add_count(b, "--lightmap-as", (uint64_t)all->lightmap_as);
-    add_count(b, "--units", (uint64_t)all->light_units);
 }
 
 static void add_probes(const alp_probe_options *o, alpi_bytes *b)

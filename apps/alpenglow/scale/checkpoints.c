@@ -184,5 +184,10 @@ int checkpoint_read(const command_line *a, alp_bake_options *o, char **restart)
         *restart = make_restart(a);
         c->restart = *restart;
     }
+    if (values[OPTION_SHARD].given && c->restart == NULL) {
+        return usage_error(COMMAND_BAKE, "--shard: the merge runs this command again from this "
+                                         "folder, and keeps both as UTF-8; rename the files or "
+                                         "folders that are not UTF-8");
+    }
     return EXIT_DONE;
 }
