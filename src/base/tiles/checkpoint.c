@@ -194,7 +194,11 @@ static uint32_t read_record(alpi_checkpoint *c, const alpi_tile_log *log,
         tiles = 1;
     } else {
         alpi_warn(c->context, "checkpoint-damaged", log->path,
-                  "a record at byte %llu cannot be read; its tiles are traced again",
+                  c->options.merging
+                      ? "a record at byte %llu cannot be read; its shard may have to "
+                        "run again"
+                      : "a record at byte %llu cannot be read; its tiles are traced "
+                        "again",
                   (unsigned long long)record->offset);
     }
     alpi_release(c->context, bytes);

@@ -26,6 +26,13 @@ ls elsewhere elsewhere/folder
 bake -o alone.glb && cmp alone.glb elsewhere/new.glb && diff -r whole elsewhere/folder && echo same
 alpenglow merge c -q -o elsewhere/new.glb
 echo "exit $?"
+# A damaged record costs its shard, which is named.
+cp -r c damaged
+byte=$(tail -c 1 c/shard-2.tiles | od -An -tu1)
+printf "\\x$(printf %x $((byte ^ 1)))" | dd of=damaged/shard-2.tiles bs=1 conv=notrunc status=none \
+    seek=$(($(stat -c %s c/shard-2.tiles) - 1))
+alpenglow merge damaged -q -o none
+echo "exit $?"
 # The bake's own outputs stay as they were: one asset or one folder is written.
 rm -r out.glb maps
 alpenglow merge c -q -o only && ls -d only out.glb maps 2>&1
