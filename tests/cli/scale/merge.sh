@@ -42,6 +42,7 @@ lit() { alpenglow bake builtin:cornell --size 32 --samples 16 --sky 1 -q --progr
 lit lit.json --checkpoint d --shard 1/1
 alpenglow merge d -q -o lit.glb && alpenglow merge d -q -o lit/ && ls lit && ls -d lit.*
 lit --adaptive off --maps-dir reference && diff -r lit reference
+lit --adaptive off -o reference.glb && cmp lit.glb reference.glb
 alpenglow merge d -q -o lit.png
 echo "exit $?"
 mkdir lit.png && alpenglow merge d -q -o lit.png && alpenglow merge d -q -o lit.v2/ && diff -r lit.png lit.v2

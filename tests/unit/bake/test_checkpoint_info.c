@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a caller reads of a folder of checkpoints: shards that are missing, and killed processes.
+// A caller reads a folder of checkpoints: shards that are missing, and killed processes.
 #include "test_support.h"
 
 #include "base/tiles/checkpoint_state.h"
