@@ -86,9 +86,9 @@ static const command_entry commands[COMMAND_COUNT] = {
                         "last write, and shards that are missing."},
     [COMMAND_MERGE] = {"merge", "DIR [-o OUT]", "write the result of a bake's shards", 1,
                        "Reads the shards that 'bake --shard I/N --checkpoint DIR' left in DIR, and "
-                       "writes what one bake would have written, with the same bits. OUT is its "
-                       "asset, or its folder of maps; without OUT, the names of the bake. Missing "
-                       "shards are listed for sbatch --array."},
+                       "writes what one bake with --adaptive off would have written, with the same "
+                       "bits. OUT is its asset, or its folder of maps; without OUT, the names of "
+                       "the bake. Missing shards are listed for sbatch --array."},
     [COMMAND_WEB] = {"web", "BAKED [-o] OUT.html [--maps-dir DIR] [--probes FILE]",
                      "write a baked scene as a page for browsers", 1,
                      "Writes one HTML file that shows BAKED, a .glb or .gltf, by three.js: the "
@@ -118,6 +118,12 @@ bool command_interruptible(command_id command)
     return command == COMMAND_BAKE || command == COMMAND_RENDER || command == COMMAND_SAMPLE ||
            command == COMMAND_PROBES || command == COMMAND_AMBIENCE || command == COMMAND_LPV ||
            command == COMMAND_VIEW || command == COMMAND_MERGE;
+}
+
+bool command_has_scene(command_id command)
+{
+    return command != COMMAND_COMPARE && command != COMMAND_SH && command != COMMAND_STATUS &&
+           command != COMMAND_MERGE && command != COMMAND_WEB;
 }
 
 bool command_is_picture(command_id command)

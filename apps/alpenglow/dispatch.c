@@ -3,6 +3,7 @@
 
 #include "commands/commands.h"
 #include "compare_assets.h"
+#include "interrupt.h"
 #include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
@@ -119,6 +120,9 @@ static int run_command(int count, char **words)
     command_id id = find_command(words[0]);
     if (id == COMMAND_COUNT) {
         return EXIT_USAGE;
+    }
+    if (id == COMMAND_BAKE) {
+        interrupt_remember();
     }
     const help_request request = arguments_ask_for_help(count - 1, words + 1);
     if (request != HELP_NONE) {

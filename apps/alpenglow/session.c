@@ -133,7 +133,10 @@ int session_end(session *s, alp_result result)
             return EXIT_STOPPED;
         }
         if (interrupt_asked()) {
-            failure(s->has_written ? "interrupted" : "interrupted; nothing was written");
+            failure(interrupt_keeps_work() ? "interrupted; the checkpoint keeps the work, and the "
+                                             "same command goes on from it"
+                    : s->has_written       ? "interrupted"
+                                           : "interrupted; nothing was written");
             return EXIT_INTERRUPTED;
         }
         if (together.ranks == NULL || has_failed_by_warning(s)) {

@@ -128,6 +128,9 @@ int main(int count, char **words)
 {
     int level, code;
     streams_open();
+    if (count > 1 && strcmp(words[1], "bake") == 0) {
+        interrupt_remember(); // MPI takes its time to start
+    }
     if (MPI_Init_thread(&count, &words, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS ||
         (job = alpi_ranks_mpi_create(interrupt_asked)) == NULL) {
         return failure("MPI cannot be started; start alpenglow-mpi with mpirun or srun");

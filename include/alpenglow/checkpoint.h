@@ -19,8 +19,8 @@ typedef struct alp_checkpoint_options {
     /// (default): none. Later bakes may have another one.
     const char *restart;
 
-    /// Shards: `shards` processes each do a part of the work, without a word between them. This one
-    /// is number `shard`, in [1, shards]; 0 (default): the whole bake. A shard gathers its own
+    /// Shards: `shards` processes each do a part of the work, and exchange nothing. This one is
+    /// number `shard`, in [1, shards]; 0 (default): the whole bake. A shard gathers its own
     /// tiles of the map, leaves them in the folder, and writes no outputs. Needs a folder, a fixed
     /// number of samples, and sampling.accuracy ALP_ADAPTIVE_OFF. Light: each shard solves the
     /// bounces of the whole scene.
@@ -34,7 +34,9 @@ ALP_API alp_checkpoint_options alp_checkpoint_options_default(void);
 /// The state of one process of a bake, as its folder keeps it.
 typedef struct alp_checkpoint_process {
     const char *name;       ///< "bake", "rank-3" or "shard-2"
-    const char *phase;      ///< "running" (also after a kill), "stopped" or "complete"
+    const char *phase;      ///< "running", "killed" (no process holds the lock of its tiles; where
+                            ///< locks do not reach other machines, also "running" on one of them),
+                            ///< "stopped" or "complete"
     const char *stage;      ///< of the bake
     uint64_t done, total;   ///< units of the stage
     double seconds;         ///< since the process began
@@ -56,6 +58,10 @@ ALP_API ALP_NODISCARD alp_result alp_checkpoint_read(alp_context *context, const
 /// The processes, in the order of their names; owned by info.
 ALP_API const alp_checkpoint_process *alp_checkpoint_processes(const alp_checkpoint_info *info,
                                                                uint32_t *count);
+/// Lists the shards without a complete state, as for the --array of a scheduler: "2,4-6". A list
+/// longer than `room` ends in ", ..." after a whole entry.
+/// @param text [room] out: "" if all are complete, or there are no shards
+ALP_API void alp_checkpoint_missing(const alp_checkpoint_info *info, char *text, size_t room);
 /// Number of states that could not be read.
 ALP_API uint32_t alp_checkpoint_damaged(const alp_checkpoint_info *info);
 ALP_API void alp_checkpoint_info_destroy(alp_checkpoint_info *info); ///< NULL does nothing

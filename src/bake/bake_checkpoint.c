@@ -193,21 +193,39 @@ void alpi_bake_close_checkpoint(alpi_bake_job *job, bool complete)
 
 // --- shards --------------------------------------------------------------------------------------
 
-/// Lists the shards whose tiles are missing, as ranges for the --array of a scheduler.
-static void list_missing(const alpi_tiles *tiles, char *text, size_t room)
+/// The last of the missing shards that follow each other from `first` on.
+static uint32_t end_of_range(const bool *missing, uint32_t count, uint32_t first)
 {
-    text[0] = '\0';
-    for (uint32_t i = 0; i < tiles->shards; i++) {
-        uint32_t last = i;
-        if (!tiles->missing[i]) {
+    uint32_t last = first;
+    while (last + 1 < count && missing[last + 1]) {
+        last++;
+    }
+    return last;
+}
+
+/// Lists shards as ranges, for the --array of a scheduler. A list that is too long ends in ", ..."
+/// after a whole entry.
+static void list_ranges(const bool *missing, uint32_t count, char *text, size_t room)
+{
+    static const char more[] = ", ...";
+    size_t used = 0;
+    if (room > 0) {
+        text[0] = '\0';
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!missing[i]) {
             continue;
         }
-        while (last + 1 < tiles->shards && tiles->missing[last + 1]) {
-            last++;
+        char entry[32];
+        const uint32_t last = end_of_range(missing, count, i);
+        const int length = snprintf(entry, sizeof entry, last > i ? "%s%u-%u" : "%s%u",
+                                    used > 0 ? "," : "", i + 1, last + 1);
+        if (used + (size_t)length + sizeof more > room) {
+            snprintf(text + used, room - used, "%s", more);
+            return;
         }
-        const size_t used = strlen(text);
-        snprintf(text + used, room - used, last > i ? "%s%u-%u" : "%s%u", used > 0 ? "," : "",
-                 i + 1, last + 1);
+        memcpy(text + used, entry, (size_t)length + 1);
+        used += (size_t)length;
         i = last;
     }
 }
@@ -230,7 +248,7 @@ alp_result alpi_bake_end_shard(alpi_bake_job *job, bool *ends)
     if (!tiles->merging || !any_missing(tiles)) {
         return ALP_OK;
     }
-    list_missing(tiles, missing, sizeof missing);
+    list_ranges(tiles->missing, tiles->shards, missing, sizeof missing);
     return alpi_fail(job->context, ALP_ERROR_INVALID_DATA,
                      "%s: shards are missing or not complete; run them, then merge again: "
                      "--array=%s",
@@ -245,12 +263,14 @@ struct alp_checkpoint_info {
     alp_checkpoint_process *processes; // [list.count]
 };
 
-static void fill_processes(alp_checkpoint_info *info)
+static void fill_processes(alp_checkpoint_info *info, const char *folder)
 {
     for (size_t i = 0; i < info->list.count; i++) {
         const alpi_checkpoint_state *s = &info->list.states[i];
+        const bool is_killed = strcmp(s->phase, "running") == 0 &&
+                               alpi_checkpoint_is_free(info->context, folder, info->list.names[i]);
         info->processes[i] = (alp_checkpoint_process){.name = info->list.names[i],
-                                                      .phase = s->phase,
+                                                      .phase = is_killed ? "killed" : s->phase,
                                                       .stage = s->stage,
                                                       .done = s->done,
                                                       .total = s->total,
@@ -293,7 +313,7 @@ alp_result alp_checkpoint_read(alp_context *context, const char *folder, alp_che
         alp_checkpoint_info_destroy(made);
         return result;
     }
-    fill_processes(made);
+    fill_processes(made, folder);
     *info = made;
     return ALP_OK;
 }
@@ -303,6 +323,29 @@ const alp_checkpoint_process *alp_checkpoint_processes(const alp_checkpoint_info
 {
     *count = (uint32_t)info->list.count;
     return info->processes;
+}
+
+/// Marks the shards that have no complete state.
+static void mark_missing(const alp_checkpoint_info *info, bool *missing, uint32_t shards)
+{
+    for (uint32_t i = 0; i < shards; i++) {
+        missing[i] = true;
+    }
+    for (size_t i = 0; i < info->list.count; i++) {
+        const alp_checkpoint_process *p = &info->processes[i];
+        if (p->shard > 0 && p->shard <= shards && strcmp(p->phase, "complete") == 0) {
+            missing[p->shard - 1] = false;
+        }
+    }
+}
+
+void alp_checkpoint_missing(const alp_checkpoint_info *info, char *text, size_t room)
+{
+    bool missing[SHARD_LIMIT];
+    uint32_t shards = info->processes[0].shards;
+    shards = shards <= SHARD_LIMIT ? shards : SHARD_LIMIT;
+    mark_missing(info, missing, shards);
+    list_ranges(missing, shards, text, room);
 }
 
 uint32_t alp_checkpoint_damaged(const alp_checkpoint_info *info)

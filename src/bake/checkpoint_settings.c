@@ -39,6 +39,19 @@ static void add_text(alpi_bytes *b, const char *name, const char *text)
     alpi_bytes_print(b, "\n");
 }
 
+/// The word of a choice, as the command has it, or its number. @param words [count]
+static void add_choice(alpi_bytes *b, const char *name, const char *const *words, size_t count,
+                       int choice)
+{
+    if (choice >= 0 && (size_t)choice < count) {
+        add_text(b, name, words[choice]);
+    } else {
+        add_number(b, name, (double)choice);
+    }
+}
+#define ADD_CHOICE(b, name, words, choice)                                                         \
+    add_choice(b, name, words, sizeof(words) / sizeof *(words), (int)(choice))
+
 // --- the scene -----------------------------------------------------------------------------------
 
 /// Fingerprint of the triangles, which a pose moves.
@@ -100,9 +113,35 @@ static void add_scene(const alpi_bake_job *job, alpi_bytes *b)
 
 // --- options -------------------------------------------------------------------------------------
 
+static void add_maps(unsigned maps, alpi_bytes *b)
+{
+    static const char *const words[] = {
+        "ao",      "bent", "light",     "ao-bleed", "direct",
+        "bounced", "sh",   "direction", "probes"}; // bits of alp_map
+    const char *separator = " ";
+    alpi_bytes_print(b, "--maps");
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        if ((maps >> i & 1u) != 0) {
+            alpi_bytes_print(b, "%s%s", separator, words[i]);
+            separator = ",";
+        }
+    }
+    alpi_bytes_print(b, "\n");
+}
+
+static void add_adaptive(float accuracy, alpi_bytes *b)
+{
+    if (accuracy == ALP_ADAPTIVE_AUTO || accuracy == ALP_ADAPTIVE_OFF) {
+        add_text(b, "--adaptive", accuracy == ALP_ADAPTIVE_OFF ? "off" : "auto");
+    } else {
+        add_number(b, "--adaptive", (double)accuracy);
+    }
+}
+
 static void add_atlas(const alp_atlas_options *o, alpi_bytes *b)
 {
-    add_count(b, "--atlas", (uint64_t)o->mode);
+    static const char *const modes[] = {"auto", "keep", "charts", "vertex", "blend"};
+    ADD_CHOICE(b, "--atlas", modes, o->mode);
     add_count(b, "--size", o->size);
     add_number(b, "--texels-per-metre", o->texels_per_metre);
     add_count(b, "--padding", o->padding);
@@ -183,10 +222,12 @@ static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
 
 static void add_light(const alp_bake_options *all, alpi_bytes *b)
 {
+    static const char *const gatherers[] = {"rays", "hemicube", "paths"};
+    static const char *const direct[] = {"on", "off", "apart"};
     const alp_light_options *o = &all->light;
     add_lighting(&o->lighting, b);
-    add_count(b, "--gather", (uint64_t)o->gather);
-    add_count(b, "--direct", (uint64_t)o->direct);
+    ADD_CHOICE(b, "--gather", gatherers, o->gather);
+    ADD_CHOICE(b, "--direct", direct, o->direct);
     add_count(b, "--bounces", o->bounces);
     add_number(b, "light-error", (double)o->error);
     add_count(b, "bounded", o->bounded);
@@ -195,8 +236,6 @@ static void add_light(const alp_bake_options *all, alpi_bytes *b)
     add_count(b, "--hemicube", o->hemicube);
     add_count(b, "--emitters", (uint64_t)o->emitters);
     add_count(b, "--layers", o->layers);
-    add_count(b, "--lightmap-as", (uint64_t)all->lightmap_as);
-    add_count(b, "--units", (uint64_t)all->light_units);
 }
 
 static void add_probes(const alp_probe_options *o, alpi_bytes *b)
@@ -225,12 +264,12 @@ alpi_bytes alpi_bake_settings(const alpi_bake_job *job)
     const alp_bake_options *o = &job->options;
     alpi_bytes b = alpi_bytes_create(job->context);
     add_scene(job, &b);
-    add_count(&b, "--maps", o->maps);
+    add_maps(o->maps, &b);
     add_atlas(&o->atlas, &b);
     add_occlusion(o, &b);
     add_light(o, &b);
     add_probes(o->probes, &b);
-    add_number(&b, "--adaptive", (double)o->sampling.accuracy);
+    add_adaptive(o->sampling.accuracy, &b);
     add_number(&b, "--error", (double)o->sampling.error);
     add_count(&b, "--memory-limit", o->sampling.memory_limit);
     add_count(&b, "--stitch", o->stitch);

@@ -20,7 +20,7 @@ static const double PATIENCE = 0.5;
 
 typedef enum call_kind { CALL_EXCHANGE = 1, CALL_MEETING } call_kind;
 
-/// What ranks gather at the begin of every call.
+/// Ranks gather this at the begin of every call.
 typedef struct call_head {
     int32_t kind;  // call_kind
     int32_t value; // of a meeting

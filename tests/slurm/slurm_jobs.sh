@@ -142,7 +142,7 @@ alpenglow merge shards.kept -q >merge.out 2>&1 && fail "a merge lacks a shard an
 grep -q -e '--array=2$' merge.out || fail "the merge does not name the shard" merge.out
 job=$(SHARDS=3 submit --array=2 "$examples/array.sbatch" shards.kept "${plain[@]}" \
     --maps-dir shards)
-merge=$(submit --dependency="afterok:$job" --wrap="alpenglow merge shards.kept -q")
+merge=$(submit --dependency="afterok:$job" --kill-on-invalid-dep=yes --wrap="alpenglow merge shards.kept -q")
 completes "$merge" "the merge"
 same shards
 

@@ -76,9 +76,6 @@ static int bake(session *s, const command_line *a, alp_bake_options *o, const ch
     o->progress = session_progress;
     o->progress_user = s;
     interrupt_defer();
-    if (o->checkpoint.folder != NULL && !o->checkpoint.merge) {
-        interrupt_keep_work();
-    }
     alp_bake_work work;
     if (!a->values[OPTION_QUIET].given && o->atlas.mode != ALP_ATLAS_VERTEX &&
         alp_bake_estimate(s->scene, o, &work) == ALP_OK && work.texels > 0) {
@@ -154,6 +151,8 @@ static int run(const command_line *a, const char *note)
     char *restart = NULL;
     int code = bake_options_read(a, &options, &lamps);
     code = code == EXIT_DONE ? checkpoint_read(a, &options, &restart) : code;
+    interrupt_decide(code == EXIT_DONE && options.checkpoint.folder != NULL &&
+                     !options.checkpoint.merge);
     code = code == EXIT_DONE ? probe_file_check(a) : code;
     code = code == EXIT_DONE ? check_output(a, options.output) : code;
     if (code == EXIT_DONE) {

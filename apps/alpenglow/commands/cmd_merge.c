@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // alpenglow merge: writes the result of a bake whose shards are complete. It runs the command of
 // the shards again, which reads their tiles instead of tracing rays.
+#include "bake_defaults.h"
 #include "commands/commands.h"
+#include "output.h"
 #include "printing/messages.h"
 #include "scale/checkpoints.h"
 
@@ -12,6 +14,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /// The absolute form of a path that may not exist yet. The caller frees it.
@@ -28,33 +31,75 @@ static char *make_absolute(const char *path)
 static bool is_asset(const char *path)
 {
     static const char *const endings[] = {".glb", ".gltf", ".dae", ".obj", ".json", ".babylon"};
-    const size_t length = strlen(path);
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        const size_t end = strlen(endings[i]);
-        if (length > end && strcmp(path + length - end, endings[i]) == 0) {
+        if (path_ends(path, endings[i])) {
             return true;
         }
     }
     return false;
 }
 
-/// Adds what the merge itself was given: the output, -f, and how it reports.
-static void add_own_words(const command_line *a, const char *output, restart_words *words)
+/// Whether a path names a folder: it is one, ends in a slash, or has no ending.
+static bool is_folder(const char *path)
 {
-    const option_value *values = a->values;
+    struct stat status;
+    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path;
+    return (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) || strrchr(name, '.') == NULL;
+}
+
+/// Refuses an output that is neither an asset nor a folder.
+static int check_output(const char *path)
+{
+    return path == NULL || is_asset(path) || is_folder(path)
+               ? EXIT_DONE
+               : usage_error(COMMAND_MERGE,
+                             "-o %s: need an asset (.glb, .gltf, .dae, .obj, .json, .babylon) or a "
+                             "folder of maps; a folder with this name ends in a slash",
+                             path);
+}
+
+/// Gives options of outputs their defaults.
+static void reset(command_line *bake, const option_id *ids, size_t count)
+{
+    char scene[] = "builtin:cornell", *words[] = {scene};
+    command_line plain;
+    (void)arguments_parse(COMMAND_BAKE, 1, words, &plain);
+    for (size_t i = 0; i < count; i++) {
+        bake->values[ids[i]] = plain.values[ids[i]];
+    }
+}
+
+/// Replaces the outputs of a bake by one asset or one folder of maps.
+static void replace_outputs(command_line *bake, const char *output)
+{
+    static const option_id of_folders[] = {OPTION_MAPS_FOLDER, OPTION_MAPS_AS};
+    static const option_id of_assets[] = {OPTION_OUTPUT, OPTION_LIGHTMAP_AS, OPTION_UNITS,
+                                          OPTION_LIGHTMAP_FORMAT};
+    const option_value given = {.given = true, .text = output};
+    const option_value form = bake->values[OPTION_LIGHTMAP_AS];
+    const char *note;
+    free(bake_defaults_fill(bake, &note)); // the name of the bake's asset may choose its maps
+    bake->values[OPTION_LIGHTMAP_AS] = form;
+    if (is_folder(output)) {
+        reset(bake, of_assets, sizeof of_assets / sizeof *of_assets);
+        bake->values[OPTION_MAPS_FOLDER] = given;
+    } else {
+        reset(bake, of_folders, sizeof of_folders / sizeof *of_folders);
+        bake->values[OPTION_OUTPUT] = given;
+    }
+}
+
+/// Adds what the merge itself was given: the output, -f, and how it reports.
+static void add_own_options(const command_line *a, const char *output, command_line *bake)
+{
+    static const option_id own[] = {OPTION_FORCE, OPTION_QUIET, OPTION_THREADS};
     if (output != NULL) {
-        restart_add(words, is_asset(output) ? "-o" : "--maps-dir");
-        restart_add(words, output);
+        replace_outputs(bake, output);
     }
-    if (values[OPTION_FORCE].given) {
-        restart_add(words, "-f");
-    }
-    if (values[OPTION_QUIET].given) {
-        restart_add(words, "-q");
-    }
-    if (values[OPTION_THREADS].given) {
-        restart_add(words, "--threads");
-        restart_add(words, values[OPTION_THREADS].text);
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++) {
+        if (a->values[own[i]].given) {
+            bake->values[own[i]] = a->values[own[i]];
+        }
     }
 }
 
@@ -70,7 +115,6 @@ static int run(const command_line *a, const alp_checkpoint_process *process)
     }
     char *folder = make_absolute(a->operands[0]);
     char *output = out != NULL ? make_absolute(out) : NULL;
-    add_own_words(a, output, &words);
     int code = EXIT_FAILED;
     if (chdir(words.folder) != 0) {
         fprintf(stderr, "alpenglow: merge: %s: the folder of the bake cannot be entered: %s\n",
@@ -79,6 +123,7 @@ static int run(const command_line *a, const alp_checkpoint_process *process)
         code = arguments_parse(COMMAND_BAKE, words.count, words.words, &bake);
     }
     if (code == EXIT_DONE) {
+        add_own_options(a, output, &bake);
         bake.merging = true;
         bake.merged_shards = process->shards;
         bake.merged_folder = folder;
@@ -106,6 +151,9 @@ static int merge(const command_line *a, const alp_checkpoint_info *info)
 
 int command_merge(const command_line *a)
 {
+    if (check_output(a->values[OPTION_OUTPUT].text) != EXIT_DONE) {
+        return EXIT_USAGE;
+    }
     alp_context *context = NULL;
     alp_checkpoint_info *info = NULL;
     alp_result result = alp_context_create(NULL, &context);

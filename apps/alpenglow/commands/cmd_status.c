@@ -43,9 +43,9 @@ static void print_process(const alp_checkpoint_process *p)
             printf("; stated error so far %.2g %%", 100.0 * p->error);
         }
         if (p->seconds_left >= 0.0 && strcmp(p->phase, "running") == 0) {
-            fputs("; of this stage about ", stdout);
+            fputs("; about ", stdout);
             print_time(p->seconds_left);
-            fputs(" left", stdout);
+            fputs(" left in this stage", stdout);
         }
     }
     fputs("; written ", stdout);
@@ -55,30 +55,20 @@ static void print_process(const alp_checkpoint_process *p)
     putchar('\n');
 }
 
-/// Lists the shards that have no complete state.
-static void print_missing_shards(const alp_checkpoint_process *p, uint32_t count)
+/// Prints how many shards are complete, and which are not.
+static void print_shards(const alp_checkpoint_info *info)
 {
-    const uint32_t shards = p[0].shards;
-    uint32_t complete = 0;
+    char missing[600];
+    uint32_t count = 0, complete = 0;
+    const alp_checkpoint_process *p = alp_checkpoint_processes(info, &count);
     for (uint32_t i = 0; i < count; i++) {
         complete += p[i].shards > 0 && strcmp(p[i].phase, "complete") == 0 ? 1 : 0;
     }
-    if (shards == 0) {
-        return;
+    if (p[0].shards > 0) {
+        alp_checkpoint_missing(info, missing, sizeof missing);
+        printf("shards     %u of %u complete%s%s\n", complete, p[0].shards,
+               missing[0] != '\0' ? "; missing: --array=" : "", missing);
     }
-    printf("shards     %u of %u complete", complete, shards);
-    const char *separator = "; missing: --array=";
-    for (uint32_t s = 1; s <= shards; s++) {
-        bool done = false;
-        for (uint32_t i = 0; i < count; i++) {
-            done = done || (p[i].shard == s && strcmp(p[i].phase, "complete") == 0);
-        }
-        if (!done) {
-            printf("%s%u", separator, s);
-            separator = ",";
-        }
-    }
-    putchar('\n');
 }
 
 static int write_json(const alp_checkpoint_process *p, uint32_t count, const command_line *a)
@@ -116,7 +106,7 @@ static int print(const alp_checkpoint_info *info, const command_line *a)
     for (uint32_t i = 0; i < count; i++) {
         print_process(&p[i]);
     }
-    print_missing_shards(p, count);
+    print_shards(info);
     const uint32_t damaged = alp_checkpoint_damaged(info);
     if (damaged > 0) {
         printf("damaged    %u state%s; the bake goes on from what was written before\n", damaged,

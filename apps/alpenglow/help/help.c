@@ -138,7 +138,7 @@ static void print_scenes(void)
 
 static void print_footer(command_id command)
 {
-    if (command != COMMAND_COMPARE && command != COMMAND_SH && command != COMMAND_WEB) {
+    if (command_has_scene(command)) {
         print_scenes();
     }
     printf("\nExit status: 0 done, 1 failed, 2 wrong usage%s.\n",

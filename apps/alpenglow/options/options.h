@@ -278,6 +278,8 @@ const char *option_group_title(option_group group);
 const option *option_after(command_id command, const option *last);
 /// The same within one group.
 const option *option_next(command_id command, option_group group, const option *last);
+/// Whether a command reads a SCENE, which may be a built-in one.
+bool command_has_scene(command_id command);
 /// Whether a command makes pictures, to which it adds light straight from lamps and suns itself.
 bool command_is_picture(command_id command);
 /// Largest number of operands of a command.

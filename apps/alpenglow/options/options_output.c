@@ -42,8 +42,9 @@ static const option rows[] = {
      .name = "-o",
      .alias = "--output",
      .value = "OUT",
-     .help = "Write the asset (.glb, .gltf, .dae, .obj) or the folder of maps (another name) here, "
-             "instead of where the bake would."},
+     .help = "Write the asset (.glb, .gltf, .dae, .obj, .json, .babylon) or the folder of maps (a "
+             "name without ending, or with a slash at its end) here, and none of the bake's own "
+             "outputs."},
     {.id = OPTION_OUTPUT,
      .commands = IN_WEB,
      .group = GROUP_OUTPUT,

@@ -70,14 +70,10 @@ static int read_shard(const command_line *a, alp_bake_options *o)
         return usage_error(COMMAND_BAKE, "--shard: leaves its part in a folder; give "
                                          "--checkpoint DIR");
     }
-    if (o->sampling.error > 0.0f) {
+    if (o->sampling.error > 0.0f || (light && o->light.error > 0.0f)) {
         return usage_error(COMMAND_BAKE, "--shard: cannot reach an error alone; give fixed "
-                                         "--ao-samples or --samples, or use ranks: mpirun "
+                                         "--ao-samples N or --samples N, or use ranks: mpirun "
                                          "alpenglow-mpi bake");
-    }
-    if (light && !values[OPTION_SAMPLES].given && o->light.error > 0.0f) {
-        return usage_error(COMMAND_BAKE, "--shard: light needs a fixed number of rays per texel; "
-                                         "give --samples N");
     }
     if (values[OPTION_ADAPTIVE].given && o->sampling.accuracy != ALP_ADAPTIVE_OFF) {
         return usage_error(COMMAND_BAKE, "--shard: texels of a shard cannot be interpolated from "
@@ -183,6 +179,11 @@ int checkpoint_read(const command_line *a, alp_bake_options *o, char **restart)
     if (c->folder != NULL) {
         *restart = make_restart(a);
         c->restart = *restart;
+    }
+    if (values[OPTION_SHARD].given && c->restart == NULL) {
+        return usage_error(COMMAND_BAKE, "--shard: the merge runs this command again from this "
+                                         "folder, and keeps both as UTF-8; rename the files or "
+                                         "folders that are not UTF-8");
     }
     return EXIT_DONE;
 }

@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "base/tiles/checkpoint_compare.h"
 #include "base/tiles/tile_log.h"
 
 #include <errno.h>
@@ -196,7 +197,11 @@ static uint32_t read_record(alpi_checkpoint *c, const alpi_tile_log *log,
         tiles = 1;
     } else {
         alpi_warn(c->context, "checkpoint-damaged", log->path,
-                  "a record at byte %llu cannot be read; its tiles are traced again",
+                  c->options.merging
+                      ? "a record at byte %llu cannot be read; its shard may have to "
+                        "run again"
+                      : "a record at byte %llu cannot be read; its tiles are traced "
+                        "again",
                   (unsigned long long)record->offset);
     }
     alpi_release(c->context, bytes);
@@ -291,74 +296,6 @@ bool alpi_checkpoint_resumes(const alpi_checkpoint *checkpoint)
     return checkpoint->resumes;
 }
 
-// --- settings ------------------------------------------------------------------------------------
-
-/// The value of a setting, with its length; NULL: there is none of this name.
-static const char *find_setting(const char *settings, const char *name, size_t length,
-                                size_t *value_length)
-{
-    for (const char *line = settings; *line != '\0';) {
-        const size_t size = strcspn(line, "\n");
-        if (size > length && line[length] == ' ' && strncmp(line, name, length) == 0) {
-            *value_length = size - length - 1;
-            return line + length + 1;
-        }
-        line += size + (line[size] == '\n' ? 1 : 0);
-    }
-    return NULL;
-}
-
-/// Part of a text.
-typedef struct words {
-    const char *text;
-    size_t length;
-} words;
-
-static void add_difference(words name, words was, words is, char *text, size_t room)
-{
-    const size_t used = strlen(text);
-    if (used + 1 < room) {
-        snprintf(text + used, room - used, "%s%.*s was %.*s and is %.*s", used > 0 ? "; " : "",
-                 (int)name.length, name.text, (int)was.length, was.text, (int)is.length, is.text);
-    }
-}
-
-/// Adds the settings of `ours` that `theirs` lacks or has with another value.
-/// @param gone `ours` are those of the folder; settings with another value are left out
-static void add_differences(const char *ours, const char *theirs, bool gone, char *text,
-                            size_t room)
-{
-    const words none = {"none", 4};
-    for (const char *line = ours; *line != '\0';) {
-        const size_t size = strcspn(line, "\n"), length = strcspn(line, " \n");
-        const words own = {line + length + 1, size > length ? size - length - 1 : 0};
-        words other = {NULL, 0};
-        other.text = find_setting(theirs, line, length, &other.length);
-        if (other.text == NULL) {
-            add_difference((words){line, length}, gone ? own : none, gone ? none : own, text, room);
-        } else if (!gone &&
-                   (other.length != own.length || strncmp(other.text, own.text, own.length) != 0)) {
-            add_difference((words){line, length}, other, own, text, room);
-        }
-        line += size + (line[size] == '\n' ? 1 : 0);
-    }
-}
-
-/// Refuses a folder that keeps another bake.
-static alp_result compare(alpi_checkpoint *c, const alpi_checkpoint_state *state)
-{
-    char text[600] = "";
-    if (strcmp(state->settings, c->options.settings) == 0) {
-        return ALP_OK;
-    }
-    add_differences(c->options.settings, state->settings, false, text, sizeof text);
-    add_differences(state->settings, c->options.settings, true, text, sizeof text);
-    return alpi_fail(c->context, ALP_ERROR_INVALID_ARGUMENT,
-                     "%s: the folder keeps the checkpoint of another bake: %s; use the same "
-                     "command, another folder, or remove this one",
-                     c->options.folder, text);
-}
-
 // --- opening -------------------------------------------------------------------------------------
 
 static bool is_of_this_run(const alpi_checkpoint *c, const char *name)
@@ -421,7 +358,8 @@ static alp_result open_others(alpi_checkpoint *c, const alpi_checkpoint_list *li
         if (is_over(s) && c->options.shards == 0) {
             continue;
         }
-        ALP_TRY(compare(c, s));
+        ALP_TRY(alpi_checkpoint_compare(c->context, c->options.folder, c->options.settings,
+                                        s->settings));
         const bool wanted = c->options.shards == 0 || c->options.merging;
         if (wanted && strcmp(list->names[i], c->options.name) != 0) {
             ALP_TRY(open_other(c, list->names[i]));

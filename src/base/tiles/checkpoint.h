@@ -66,6 +66,8 @@ typedef struct alpi_checkpoint_list {
 /// @return ALP_OK (a missing folder has none); IO; OUT_OF_MEMORY
 alp_result alpi_checkpoint_list_states(alp_context *context, const char *folder,
                                        alpi_checkpoint_list *list);
+/// Whether the tiles of a process are there, and no process holds their lock.
+bool alpi_checkpoint_is_free(alp_context *context, const char *folder, const char *name);
 void alpi_checkpoint_list_clear(alpi_checkpoint_list *list);
 
 #endif

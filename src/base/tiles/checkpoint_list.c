@@ -6,8 +6,11 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 static int compare_names(const void *a, const void *b)
 {
@@ -114,6 +117,18 @@ alp_result alpi_checkpoint_list_states(alp_context *context, const char *folder,
         alpi_checkpoint_list_clear(list);
     }
     return result;
+}
+
+bool alpi_checkpoint_is_free(alp_context *context, const char *folder, const char *name)
+{
+    char *path = alpi_format(context, "%s/%s.tiles", folder, name);
+    const int file = path != NULL ? open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
+    const bool is_free = file >= 0 && flock(file, LOCK_SH | LOCK_NB) == 0; // others may read too
+    if (file >= 0) {
+        close(file);
+    }
+    alpi_release(context, path);
+    return is_free;
 }
 
 void alpi_checkpoint_list_clear(alpi_checkpoint_list *list)

@@ -11,6 +11,10 @@ quick --maps-dir maps --checkpoint c
 echo "exit $?"
 bake --maps-dir maps --checkpoint c --seed 3
 echo "exit $?"
+bake --maps-dir maps --checkpoint c --maps bent,light --adaptive off --atlas charts --gather hemicube --direct off
+echo "exit $?"
+bake --maps-dir maps --checkpoint c --adaptive 0.5
+echo "exit $?"
 bake --maps-dir maps --checkpoint c --only '*block*'
 echo "exit $?"
 bake --maps-dir maps --checkpoint c --checkpoint-every 3 --threads 1 --json report.json

@@ -18,9 +18,13 @@ bake --checkpoint c --shard 1/5 --error 1
 bake --checkpoint c --shard 1/5 --maps light --error 1
 bake --checkpoint c --shard 1/5 --maps light
 bake --checkpoint c --shard 1/5 --adaptive auto
+bake --checkpoint c --shard 1/5 --only $'\xff' | tr '\377' '?'
 try merge
 try merge missing
 try merge missing -o out.glb
+for name in out.png maps.v2 .glb. out.probes; do
+    try merge missing -o $name
+done
 try status
 try status missing
 mkdir empty

@@ -146,7 +146,7 @@ static alp_bake_options options_of(const checkpointed_bake *bake, alp_lamp *lamp
 
 // --- results -------------------------------------------------------------------------------------
 
-/// Of the names and bytes of all files of a folder.
+/// Hashes the names and bytes of all files of a folder.
 static uint64_t hash_files(const char *folder, size_t *largest)
 {
     struct dirent **entries = NULL;

@@ -181,7 +181,7 @@ TEST(each_allocation_fails)
     alp_context_destroy(poor);
 }
 
-/// What is no file is no state, and does not stop the reader.
+/// A path that is no file is no state, and does not stop the reader.
 TEST(no_files)
 {
     bool damaged = true;

@@ -218,7 +218,7 @@ TEST(a_second_writer_is_refused)
     alpi_tile_log_close(&second);
 }
 
-/// What cannot be opened or written says why.
+/// A log that cannot be opened or written says why.
 TEST(no_log)
 {
     alpi_tile_log log;
