@@ -26,7 +26,7 @@ typedef struct process {
     double pause;    // seconds of an item
     uint32_t cached; // a loop that fills a cache; UINT32_MAX: none
     uint32_t loop;   // that runs
-    bool chose;      // before the loops: this process chose otherwise
+    bool chose;      // other loops, by a choice that it notes
     atomic_uint ran; // items
     bool resumed;
     uint32_t values[LOOPS][ITEMS];
@@ -91,7 +91,9 @@ static alp_result run(process *p)
     tiles->missing = missing;
     ALP_TRY(alpi_checkpoint_open(context, o, &tiles->checkpoint));
     p->resumed = alpi_checkpoint_resumes(tiles->checkpoint);
-    alpi_tiles_note_choice(context, p->chose);
+    if (p->chose) {
+        alpi_tiles_note_choice(context, true);
+    }
     const alp_result result = run_loops(p);
     alpi_checkpoint_close(tiles->checkpoint, result == ALP_OK);
     *tiles = (alpi_tiles){.checkpoint = NULL};
