@@ -47,6 +47,7 @@ alp_result alpi_light_gather_layers(alpi_light_rounds *r, const alpi_final_gathe
     alpi_gather_job gather = *options->gather;
     gather.from = &from;
     gather.skies = NULL;
+    gather.directional = NULL; // that of all layers is known
     gather.values = ALPI_NEW(context, alpi_reference_value, light->lattice->texels->count);
     if (gather.values == NULL) {
         return ALP_ERROR_OUT_OF_MEMORY;

@@ -235,7 +235,7 @@ uint32_t alpi_checkpoint_begin_loop(alpi_checkpoint *checkpoint, const alpi_tile
 {
     alpi_checkpoint *c = checkpoint;
     uint32_t read = 0;
-    c->shape = alpi_tile_shape(loop);
+    c->shape = alpi_tiles_shape(c->context, loop);
     if (loop->marks == NULL && !loop->fills_cache) {
         read += read_log(c, &c->own, loop, number, states);
         for (size_t i = 0; i < c->other_count; i++) {

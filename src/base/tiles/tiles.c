@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/tiles/tiles.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/tiles/checkpoint.h"
@@ -18,6 +19,20 @@ alpi_tile_kind alpi_tiles_set_kind(alp_context *context, alpi_tile_kind kind)
     const alpi_tile_kind former = tiles->kind;
     tiles->kind = kind;
     return former;
+}
+
+void alpi_tiles_note_choice(alp_context *context, bool choice)
+{
+    alpi_tiles *tiles = alpi_context_tiles(context);
+    uint64_t *choices = &tiles->choices[tiles->kind];
+    const uint8_t byte = choice ? 2 : 1;
+    *choices = alpi_hash_bytes(*choices > 0 ? *choices : ALPI_HASH_START, &byte, sizeof byte);
+}
+
+uint64_t alpi_tiles_shape(alp_context *context, const alpi_tile_loop *loop)
+{
+    const alpi_tiles *tiles = alpi_context_tiles(context);
+    return alpi_tile_shape(loop) ^ tiles->choices[tiles->kind];
 }
 
 bool alpi_tiles_are_shards(alp_context *context)
@@ -195,7 +210,7 @@ static alp_result exchange(tile_run *r, alp_result result)
         (void)alpi_tile_pack(r->loop, r->states, 1u << ALPI_TILE_RAN | 1u << ALPI_TILE_KEPT, false,
                              &from, SIZE_MAX, &bytes);
     }
-    const alpi_rank_call call = {.shape = alpi_tile_shape(r->loop),
+    const alpi_rank_call call = {.shape = alpi_tiles_shape(r->context, r->loop),
                                  .number = r->tiles->number,
                                  .result = bytes.failed ? ALP_ERROR_OUT_OF_MEMORY : result,
                                  .bytes = bytes.bytes,

@@ -56,6 +56,12 @@ typedef enum alpi_tile_kind {
 /// Sets the kind of the following loops. @return the former one
 alpi_tile_kind alpi_tiles_set_kind(alp_context *context, alpi_tile_kind kind);
 
+/// Notes a choice between loops that depends on the machine. It changes the shape of the following
+/// loops of the kind: a process that chose otherwise reads none of their tiles.
+void alpi_tiles_note_choice(alp_context *context, bool choice);
+/// Fingerprint of a loop and of the choices before it.
+uint64_t alpi_tiles_shape(alp_context *context, const alpi_tile_loop *loop);
+
 /// Whether this process is a shard: its arrays lack the tiles of others.
 bool alpi_tiles_are_shards(alp_context *context);
 
@@ -67,6 +73,7 @@ typedef struct alpi_tiles {
     alpi_tile_kind kind;                // of the loops that follow
     bool merging;                       // tiles are read from shards; see missing
     uint32_t next[ALPI_TILE_KINDS];     // number of the next loop of each kind
+    uint64_t choices[ALPI_TILE_KINDS];  // hash of those noted so far
     uint32_t number;                    // of the loop that runs, with its kind
     bool together;                      // ranks began work, and share loops
     uint64_t claims;                    // calls of ranks so far: the number of the next loop

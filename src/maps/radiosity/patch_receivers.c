@@ -28,9 +28,9 @@ static alp_result reserve_rays(alpi_solver *s)
     const alpi_radiosity_options *o = &r->options;
     const uint32_t room = r->patches.patch_count * (uint32_t)alpi_patches_sides(&r->patches);
     const uint64_t each = alpi_kept_rays_size(o->gatherer);
-    uint64_t limit = 0;
-    ALP_TRY(alpi_kept_rays_limit(o->context, o->kept_limit, &limit));
-    r->kept = alpi_gather_meets_cells(&s->from) && each * room <= limit;
+    bool fit;
+    ALP_TRY(alpi_kept_rays_fit(o->context, each * room, o->kept_limit, &fit));
+    r->kept = fit && alpi_gather_meets_cells(&s->from);
     return r->kept ? alpi_kept_rays_reserve(o->context, o->gatherer, room, &s->kept) : ALP_OK;
 }
 

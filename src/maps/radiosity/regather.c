@@ -36,9 +36,9 @@ static alp_result prepare(alpi_regather *r, uint64_t kept_limit, const alpi_task
     if (!alpi_gather_meets_cells(r->options.gather->from) || r->traced == 0) {
         return ALP_OK;
     }
-    uint64_t limit;
-    ALP_TRY(alpi_kept_rays_limit(context, kept_limit, &limit));
-    if (alpi_kept_rays_size(g) * r->traced > limit) {
+    bool fit;
+    ALP_TRY(alpi_kept_rays_fit(context, alpi_kept_rays_size(g) * r->traced, kept_limit, &fit));
+    if (!fit) {
         return ALP_OK;
     }
     const alpi_gather_job job = job_of(r);

@@ -15,12 +15,15 @@ uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
     return (uint64_t)gatherer->packet_count * ALPI_PACKET * sizeof(uint32_t);
 }
 
-alp_result alpi_kept_rays_limit(alp_context *context, uint64_t most, uint64_t *limit)
+alp_result alpi_kept_rays_fit(alp_context *context, uint64_t bytes, uint64_t most, bool *fit)
 {
     const uint64_t left = alpi_memory_left(context), spare = alpi_memory_held(context) / 4;
     const uint64_t room = left == UINT64_MAX ? left : left > spare ? left - spare : 0;
-    *limit = room < most ? room : most;
-    return alpi_ranks_lowest(context, limit);
+    uint64_t limit = room < most ? room : most;
+    ALP_TRY(alpi_ranks_lowest(context, &limit));
+    *fit = bytes <= limit;
+    alpi_tiles_note_choice(context, *fit);
+    return ALP_OK;
 }
 
 alp_result alpi_kept_rays_reserve(alp_context *context, const alpi_gatherer *gatherer,

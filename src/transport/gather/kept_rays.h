@@ -18,11 +18,13 @@ typedef struct alpi_kept_rays {
 
 /// Bytes of the rays of a receiver.
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer);
-/// Bytes that kept rays may take now: at most `most`. Within a budget a quarter of the bytes held
-/// is left free beside them, for what is allocated while they are kept. Ranks that work together
-/// get the lowest limit of all, since each holds other bytes: all of them make this call.
-/// @param limit out  @return as alpi_ranks_lowest
-alp_result alpi_kept_rays_limit(alp_context *context, uint64_t most, uint64_t *limit);
+/// Whether kept rays of so many bytes fit now: at most `most`. Within a budget a quarter of the
+/// bytes held is left free beside them, for what is allocated while they are kept. Ranks that work
+/// together get the answer of the one with least room, since each holds other bytes: all of them
+/// make this call. The answer is noted as a choice between loops, so that a process resumed with
+/// another one is right.
+/// @param fit out  @return as alpi_ranks_lowest
+alp_result alpi_kept_rays_fit(alp_context *context, uint64_t bytes, uint64_t most, bool *fit);
 
 /// Makes room for receivers [0, count); what is there stays. Zeroed is where to begin.
 /// @return ALP_OK; OUT_OF_MEMORY

@@ -2,6 +2,7 @@
 #include "checkpointed_bake.h"
 
 #include "base/hash.h"
+#include "base/memory.h"
 #include "test_obj.h"
 
 #include <dirent.h>
@@ -192,6 +193,9 @@ alp_result checkpointed_run(checkpointed_bake *bake)
     if (bake->memory != NULL) {
         atomic_store(&bake->memory->count, 0);
         bake->memory->failing = failing;
+    }
+    if (bake->budget > 0) {
+        alpi_set_budget(context, (alpi_budget){.limit = alpi_memory_held(context) + bake->budget});
     }
     options.progress_user = &h;
     options.maps_folder = maps;

@@ -27,6 +27,7 @@ typedef struct checkpointed_bake {
     const char *folder; // of the checkpoint; NULL: none
     double every;
     uint32_t stop_after; // ranges of its loops; 0: never
+    uint64_t budget;     // of the context, bytes beside the scene; 0: none
     test_memory *memory; // of the bake, without that of loading; NULL: any
     // Out:
     uint32_t first, ranges; // ranges of loops before rays are traced; all

@@ -90,6 +90,45 @@ TEST(stopped_bakes_have_the_same_bits)
     }
 }
 
+/// Goes on with less memory, so that other rays are kept, and other loops run.
+/// @return whether the memory was enough
+static bool go_on_with(const checkpointed_kind *kind, uint64_t files, uint32_t stop_after,
+                       uint64_t budget)
+{
+    char folder[512];
+    snprintf(folder, sizeof folder, "%s", test_folder());
+    checkpointed_bake bake = {.kind = kind, .workers = 1, .folder = folder, .every = 1000.0};
+    bake.stop_after = stop_after;
+    assert_int_equal(checkpointed_run(&bake), ALP_ERROR_CANCELLED);
+    bake.stop_after = 0;
+    bake.budget = budget;
+    const alp_result result = checkpointed_run(&bake);
+    if (result == ALP_OK && bake.files != files) {
+        fail_msg("%s: after %u ranges, %llu bytes change bits", kind->name, stop_after,
+                 (unsigned long long)budget);
+    }
+    assert_true(result == ALP_OK || result == ALP_ERROR_LIMIT);
+    return result == ALP_OK;
+}
+
+TEST(machines_with_less_memory_go_on)
+{
+    uint32_t baked = 0;
+    for (int k = 0; k < KINDS; k++) {
+        checkpointed_bake whole = {.kind = &kinds[k], .workers = 1};
+        if ((kinds[k].maps & ALP_MAP_LIGHT) == 0 || kinds[k].bounces == 0) {
+            continue;
+        }
+        assert_int_equal(checkpointed_run(&whole), ALP_OK);
+        for (uint64_t budget = 1 << 20; budget < 1 << 24; budget *= 2) {
+            const uint32_t ranges = whole.ranges - whole.first;
+            baked += go_on_with(&kinds[k], whole.files, whole.first + ranges * 9 / 10, budget);
+        }
+    }
+    print_message("%u baked\n", baked);
+    assert_true(baked > 20);
+}
+
 /// Between and within the passes, whose first fills the kept rays.
 TEST(stopped_in_each_pass)
 {

@@ -260,6 +260,31 @@ TEST_WITH_CONTEXT(the_last_of_many_is_all_others, 2)
     alp_scene_destroy(scene);
 }
 
+// --- other maps ---
+
+/// The first round has the same rays with and without layers, and so the same directions of light.
+TEST_WITH_CONTEXT(layers_change_no_direction, 2)
+{
+    alp_scene *scene = make_corner(context);
+    const alp_lamp lamp = lamp_at(1.6f, 1.5f, 0.4f, 1.5f, 0.25f);
+    alp_bake_options o = layer_options(&lamp, 1);
+    uint32_t w, h;
+    o.maps = ALP_MAP_LIGHT | ALP_MAP_SH;
+    o.light.bounces = 2;
+    o.sampling.accuracy = ALP_ADAPTIVE_OFF;
+    o.light.lighting.sky.kind = ALP_SKY_HEMISPHERE;
+    alp_lightmap *with = bake(context, scene, &o);
+    o.light.layers = false;
+    alp_lightmap *without = bake(context, scene, &o);
+    for (uint32_t i = 0; i < 4; i++) {
+        const float *page = alp_lightmap_sh_page(without, i, 0, &w, &h);
+        assert_true(difference(page, alp_lightmap_sh_page(with, i, 0, &w, &h)) < 1e-6);
+    }
+    alp_lightmap_destroy(with);
+    alp_lightmap_destroy(without);
+    alp_scene_destroy(scene);
+}
+
 // --- what is refused -----------------------------------------------------------------------------
 
 TEST_WITH_CONTEXT(what_has_no_layers_is_refused, 1)

@@ -26,6 +26,7 @@ typedef struct process {
     double pause;    // seconds of an item
     uint32_t cached; // a loop that fills a cache; UINT32_MAX: none
     uint32_t loop;   // that runs
+    bool chose;      // other loops, by a choice that it notes
     atomic_uint ran; // items
     bool resumed;
     uint32_t values[LOOPS][ITEMS];
@@ -90,6 +91,9 @@ static alp_result run(process *p)
     tiles->missing = missing;
     ALP_TRY(alpi_checkpoint_open(context, o, &tiles->checkpoint));
     p->resumed = alpi_checkpoint_resumes(tiles->checkpoint);
+    if (p->chose) {
+        alpi_tiles_note_choice(context, true);
+    }
     const alp_result result = run_loops(p);
     alpi_checkpoint_close(tiles->checkpoint, result == ALP_OK);
     *tiles = (alpi_tiles){.checkpoint = NULL};
@@ -137,6 +141,18 @@ TEST(finished_tiles_are_read)
     assert_false(has_file("bake.tiles") || has_file("bake.state.old") ||
                  has_file("bake.state.new"));
     assert_true(has_file("bake.state"));
+}
+
+/// A process that chose other loops reads no tiles, whose numbers may be those of other loops.
+TEST(tiles_of_another_choice_run_again)
+{
+    new_folder();
+    (void)stop_bake("a 1\n");
+    process p = start("bake", "a 1\n");
+    p.chose = true;
+    ASSERT_OK(context, run(&p));
+    assert_true(p.resumed);
+    assert_int_equal(p.ran, LOOPS * ITEMS);
 }
 
 /// Loops that fill a cache run again; the others are read.
