@@ -4,12 +4,12 @@
 # as for other programs. The first write comes within 5 s of the first ray.
 # status tells a bake that runs from one that was killed.
 set -m # jobs of their own, in which SIGINT is not ignored
-bake=(alpenglow bake builtin:cornell --size 128 --ao-samples 24576 --progress off -q -f)
+bake=(alpenglow bake builtin:cornell --size 128 --ao-samples 49152 --progress off -q -f)
 "${bake[@]}" --maps-dir whole
 for signal in TERM USR1 INT; do
     "${bake[@]}" --maps-dir maps --checkpoint c 2>stderr &
     job=$!
-    sleep 0.7
+    sleep 0.5
     kill -$signal $job
     wait $job
     echo "$signal: exit $?"
