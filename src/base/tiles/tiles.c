@@ -101,7 +101,8 @@ static alpi_task_progress progress_of(const alpi_tile_loop *loop, uint32_t tiles
 // part has a block of every row, at a place that turns at random from row to row: parts cost about
 // the same, also where few blocks have a tile. Loops over the same items, some of which fill a
 // cache of rays, have the same parts. Each rank claims blocks of its own part first, then those of
-// the parts 1, 2, 4 … further on. scripts/replay_scale.py replays this.
+// the parts 1, 2, 4 … further on, but not in a loop that reads a cache. scripts/replay_scale.py
+// replays this.
 enum { BLOCKS = 128 };
 
 static uint32_t block_begin(const tile_run *r, uint64_t block)
@@ -161,7 +162,8 @@ static alp_result run_parts(tile_run *r)
     const uint32_t room = most * (r->count / BLOCKS / n + 1);
     uint32_t *list = ALPI_NEW(r->context, uint32_t, room);
     alp_result result = list != NULL ? run_part(r, own, most, list) : ALP_ERROR_OUT_OF_MEMORY;
-    for (uint64_t step = 1; step < n && result == ALP_OK; step *= 2) {
+    const bool claims_others = !r->loop->reads_cache;
+    for (uint64_t step = 1; claims_others && step < n && result == ALP_OK; step *= 2) {
         result = run_part(r, (uint32_t)((own + step) % n), most, list);
     }
     for (uint32_t i = 0; i < n && result != ALP_OK; i++) { // leaves none to the others

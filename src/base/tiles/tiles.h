@@ -36,6 +36,9 @@ typedef struct alpi_tile_loop {
     // The body fills a cache that is neither stored nor sent. A resumed process runs the loop
     // again.
     bool fills_cache;
+    // The body reads such a cache, and fills what it lacks. A rank runs its own part alone: tiles
+    // of others would fill the cache again.
+    bool reads_cache;
 } alpi_tile_loop;
 
 /// Runs a loop as alpi_parallel_for does. Tiles of a checkpoint are read instead of run. With

@@ -7,7 +7,8 @@
 
 #include <assert.h>
 
-enum { TRACED_PER_RANGE = 1024, ADDED_PER_RANGE = 4096 }; // rays
+// Rays. Loops that trace and loops that read have the same tiles, so that a rank finds its rays.
+enum { RAYS_PER_RANGE = 4096 };
 enum { AHEAD = 4 }; // packets: their cells are asked for while others are added
 
 uint64_t alpi_kept_rays_size(const alpi_gatherer *gatherer)
@@ -127,16 +128,15 @@ static alp_result trace_range(void *user, uint32_t begin, uint32_t end, uint32_t
     return ALP_OK;
 }
 
-/// Runs a body over the listed receivers, so many rays at a time.
-static alp_result run(kept_job *k, uint32_t together, alpi_tile_loop loop,
-                      const alpi_gather_job *written)
+/// Runs a body over the listed receivers.
+static alp_result run(kept_job *k, alpi_tile_loop loop, const alpi_gather_job *written)
 {
     const uint32_t rays = k->kept->rays;
     alpi_tile_output outputs[ALPI_GATHER_OUTPUTS];
     assert(!k->kept->by_list || k->job->count <= k->kept->receivers);
     alpi_gather_outputs(written, outputs);
     loop.count = k->job->count;
-    loop.grain = rays < together ? together / rays : 1;
+    loop.grain = rays < RAYS_PER_RANGE ? RAYS_PER_RANGE / rays : 1;
     loop.key = alpi_gather_key(k->job);
     loop.user = k;
     loop.outputs = outputs;
@@ -155,7 +155,7 @@ alp_result alpi_kept_rays_trace(const alpi_gather_job *job, const alpi_task_prog
     alpi_gather_job written = *job;
     written.values = NULL;
     written.directional = NULL;
-    return run(&k, TRACED_PER_RANGE,
+    return run(&k,
                (alpi_tile_loop){.name = "first rays",
                                 .body = trace_range,
                                 .progress = &told,
@@ -198,7 +198,9 @@ alp_result alpi_kept_rays_gather(const alpi_gather_job *job, const alpi_kept_ray
     kept_job k = {job, kept};
     alpi_gather_job written = *job;
     written.skies = NULL;
-    return run(&k, ADDED_PER_RANGE,
-               (alpi_tile_loop){.name = "kept rays", .body = gather_range, .progress = progress},
-               &written);
+    return run(
+        &k,
+        (alpi_tile_loop){
+            .name = "kept rays", .body = gather_range, .progress = progress, .reads_cache = true},
+        &written);
 }
