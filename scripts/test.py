@@ -5,7 +5,8 @@
     scripts/test.py PRESET [fast|integrations] [ctest arguments ...]
 
 fast leaves out what is labelled slow or integration, and slow cases of other files. integrations
-runs only those that need big installs, such as Blender or a browser. Counted are the cases inside
+runs only those that need big installs, such as Blender or a browser, and those labelled often, which
+repeat a test of all runs many times. Counted are the cases inside
 our test programs (each writes a line per case) and, one each, the tests that only CTest knows.
 Skipped cases are listed with the reason they gave. Exit status: 0 if nothing failed and something
 passed (of integrations all may be skipped), else 1.
@@ -16,8 +17,9 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
-TIERS = {"fast": ["--label-exclude", "^(slow|integration)$"],
-         "integrations": ["--label-regex", "^integration$"]}
+TIERS = {"all": ["--label-exclude", "^often$"],
+         "fast": ["--label-exclude", "^(slow|integration|often)$"],
+         "integrations": ["--label-regex", "^(integration|often)$"]}
 CASE = re.compile(r"^\[\s*(RUN|OK|SKIPPED|FAILED|ERROR)\s*\] (\w+)")
 
 

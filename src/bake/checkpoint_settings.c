@@ -187,7 +187,8 @@ static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
 {
     const alp_sky_options *sky = &o->sky;
     const alp_sun_options *sun = &o->sun;
-    add_count(b, "--sky", (uint64_t)sky->kind);
+    static const char *const kinds[] = {"none", "even", "up and down", "image", "clear"};
+    ADD_CHOICE(b, "--sky", kinds, sky->kind);
     for (int k = 0; k < 3; k++) {
         add_number(b,
                    k == 0   ? "--sky-red"
@@ -228,7 +229,11 @@ static void add_light(const alp_bake_options *all, alpi_bytes *b)
     add_lighting(&o->lighting, b);
     ADD_CHOICE(b, "--gather", gatherers, o->gather);
     ADD_CHOICE(b, "--direct", direct, o->direct);
-    add_count(b, "--bounces", o->bounces);
+    if (o->bounces == ALP_BOUNCES_CONVERGE) {
+        add_text(b, "--bounces", "converge");
+    } else {
+        add_count(b, "--bounces", o->bounces);
+    }
     add_number(b, "light-error", (double)o->error);
     add_count(b, "bounded", o->bounded);
     add_count(b, "--samples", o->samples);
