@@ -24,7 +24,7 @@ void alpi_guard_destroy(alp_context *context, alpi_guard *guard);
 /// Whether the guard holds the file. @param guard NULL: it holds none
 bool alpi_guard_holds(const alpi_guard *guard, alpi_file_id file);
 
-/// Where the context keeps the guard that alpi_file_check_writable consults; NULL there: none.
+/// The guard that alpi_file_check_writable consults, kept by the context; NULL there: none.
 const alpi_guard **alpi_context_guard(alp_context *context);
 
 /// Whether two paths name one file that is there.

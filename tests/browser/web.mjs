@@ -42,7 +42,7 @@ async function open(name, options = {}, before = () => {}) {
 
 const ready = (page) => page.waitForSelector('html[data-ready]', { timeout: 60000 });
 
-/// What the canvas shows, without the panel over it.
+/// The picture of the canvas, without the panel over it.
 async function shoot(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const style = await page.addStyleTag({ content: '#panel { visibility: hidden } #view { outline: none !important }' });
@@ -136,7 +136,7 @@ async function checkLayers() {
   await page.context().close();
 }
 
-/// Where the camera of the box, which looks along +z, sees a point; and the normal that faces it.
+/// The place at which the camera of the box, looking along +z, sees a point; and the normal that faces it.
 const eye = [0.278, 0.273, -0.8];
 const focal = side / 2 / Math.tan(0.686047912 / 2);
 function seenAt(point) {
@@ -145,7 +145,7 @@ function seenAt(point) {
   return { pixel: [side / 2 - (focal * x) / z, side / 2 - (focal * y) / z].map(Math.floor), normal: [-x / length, -y / length, -z / length] };
 }
 
-/// What the page should show of a white surface: the film curve, in eight bits of sRGB.
+/// The value that the page should show of a white surface: the film curve, in eight bits of sRGB.
 function displayed(irradiance) {
   const film = 1 - Math.exp((-(2 ** exposure) * irradiance) / Math.PI);
   return 255 * (film <= 0.0031308 ? 12.92 * film : 1.055 * film ** (1 / 2.4) - 0.055);

@@ -8,7 +8,7 @@
 
 enum { TEST_RANKS_MOST = 8, TEST_RANKS_MESSAGE = 512 };
 
-/// What one rank does, and how it ended. It runs on a thread of its own and may not assert.
+/// The work of one rank, and how it ended. It runs on a thread of its own and may not assert.
 typedef struct test_rank {
     uint32_t rank, count;
     alp_context *context; // with these ranks

@@ -51,7 +51,7 @@ function formOf(materials, bake) {
   return bake?.light?.as === 'emissive' ? 'emission' : null;
 }
 
-/// What the materials hold.
+/// Lists the maps that the materials hold.
 export function findMaps(materials, bake) {
   return {
     occlusion: materials.some((m) => m.aoMap !== null),

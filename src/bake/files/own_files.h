@@ -6,7 +6,7 @@
 #include "bake/job.h"
 #include "base/guard.h"
 
-/// Guards the files that the asset of the scene names, until alpi_bake_unguard. Where the output is
+/// Guards the files that the asset of the scene names, until alpi_bake_unguard. If the output is
 /// the asset itself and an earlier bake wrote it, its maps and its .mtl stay out of the guard.
 /// @return ALP_OK; OUT_OF_MEMORY
 alp_result alpi_bake_guard(const alpi_bake_job *job, alpi_guard *guard);

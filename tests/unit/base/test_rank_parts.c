@@ -93,7 +93,7 @@ TEST(every_tile_is_in_one_even_part)
             for (uint32_t i = 0; i < counts[c]; i++) {
                 assert_int_equal(runs[i], 1);
             }
-            // Where blocks have less than a tile, chance gives them: four standard deviations.
+            // If blocks have less than a tile, chance gives them: four standard deviations.
             const double share = (double)counts[c] / ranks[n];
             assert_true(most <= share + 4.0 * (sqrt(share) + 1.0));
             free(runs);
