@@ -2,7 +2,8 @@
 #include "bake/checkpoint_settings.h"
 
 #include "base/hash.h"
-#include "base/tiles/tile_log.h"
+#include "base/image.h"
+#include "scene/lights/lighting_options.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -54,60 +55,14 @@ static void add_choice(alpi_bytes *b, const char *name, const char *const *words
 
 // --- the scene -----------------------------------------------------------------------------------
 
-/// Fingerprint of the triangles, which a pose moves.
-static uint64_t hash_shape(const alp_scene *scene)
-{
-    const uint64_t points = alpi_tile_checksum((const uint8_t *)scene->positions,
-                                               scene->vertex_count * sizeof *scene->positions);
-    return points ^ alpi_tile_checksum((const uint8_t *)scene->triangles,
-                                       scene->triangle_count * sizeof *scene->triangles);
-}
-
-/// Fingerprint of the lights of the file. They have no padding in these fields.
-static uint64_t hash_lights(const alp_scene *scene)
-{
-    uint64_t hash = ALPI_HASH_START;
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        const alpi_light *l = &scene->lights[i];
-        const float values[] = {(float)l->kind, l->color.x,     l->color.y,     l->color.z,
-                                l->intensity,   l->position.x,  l->position.y,  l->position.z,
-                                l->direction.x, l->direction.y, l->direction.z, l->range,
-                                l->inner_cone,  l->outer_cone,  l->size};
-        hash = alpi_hash_bytes(hash, values, sizeof values);
-    }
-    return hash;
-}
-
-static uint64_t hash_image(const alp_image *image)
-{
-    const alp_image_info info = alp_image_get_info(image);
-    const size_t size = info.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
-    const uint64_t pixels = alpi_tile_checksum(
-        alp_image_pixels(image), (size_t)info.width * info.height * info.channels * size);
-    const uint32_t shape[] = {info.width, info.height, info.channels, (uint32_t)size};
-    return alpi_hash_bytes(pixels, shape, sizeof shape);
-}
-
-/// Fingerprint of the images that were read. The file's content does not hold them all.
-static uint64_t hash_images(const alp_scene *scene)
-{
-    uint64_t hash = ALPI_HASH_START;
-    for (uint32_t i = 0; i < scene->image_count; i++) {
-        const uint64_t one = scene->images[i] != NULL ? hash_image(scene->images[i]) : 0;
-        hash = alpi_hash_bytes(hash, &one, sizeof one);
-    }
-    return hash;
-}
-
 static void add_scene(const alpi_bake_job *job, alpi_bytes *b)
 {
     const alp_scene *scene = job->scene;
     add_text(b, "alpenglow", alp_version());
     add_text(b, "instructions", alpi_context_isa(job->context));
     add_hash(b, "SCENE-content", scene->input_hash);
-    add_hash(b, "triangles", hash_shape(scene));
-    add_hash(b, "lights", hash_lights(scene));
-    add_hash(b, "images", hash_images(scene));
+    add_hash(b, "pose", alpi_scene_pose_hash(scene));
+    add_hash(b, "images", alpi_scene_images_hash(scene));
     add_text(b, "--metals", scene->metals_black ? "black" : "diffuse");
 }
 
@@ -166,23 +121,6 @@ static void add_occlusion(const alp_bake_options *all, alpi_bytes *b)
     add_count(b, "--ao-into", (uint64_t)all->ao_into);
 }
 
-static uint64_t hash_lamps(const alp_lighting_options *o)
-{
-    uint64_t hash = ALPI_HASH_START;
-    for (uint32_t i = 0; i < o->lamp_count; i++) {
-        const alp_lamp *l = &o->lamps[i];
-        const float kind = (float)l->kind;
-        hash = alpi_hash_bytes(hash, &kind, sizeof kind);
-        hash = alpi_hash_bytes(hash, l->position, sizeof l->position);
-        hash = alpi_hash_bytes(hash, l->direction, sizeof l->direction);
-        hash = alpi_hash_bytes(hash, &l->intensity, sizeof l->intensity);
-        hash = alpi_hash_bytes(hash, l->color, sizeof l->color);
-        hash = alpi_hash_bytes(hash, &l->inner_cone, sizeof l->inner_cone);
-        hash = alpi_hash_bytes(hash, &l->outer_cone, sizeof l->outer_cone);
-    }
-    return hash;
-}
-
 static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
 {
     const alp_sky_options *sky = &o->sky;
@@ -207,7 +145,7 @@ static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
                    (double)sun->color[k]);
     }
     if (sky->kind == ALP_SKY_IMAGE && sky->image != NULL) {
-        add_hash(b, "--sky-image", hash_image(sky->image));
+        add_hash(b, "--sky-image", alpi_image_hash(ALPI_HASH_START, sky->image));
     }
     add_number(b, "--sky-turn", (double)sky->turn);
     add_number(b, "--sky-strength", (double)sky->strength);
@@ -218,7 +156,7 @@ static void add_lighting(const alp_lighting_options *o, alpi_bytes *b)
     add_number(b, "--sun-size", (double)sun->size);
     add_number(b, "file-sun-size", (double)o->file_sun_size);
     add_count(b, "lamps", o->lamp_count);
-    add_hash(b, "--lamp", hash_lamps(o));
+    add_hash(b, "--lamp", alpi_lamps_hash(ALPI_HASH_START, o));
 }
 
 static void add_light(const alp_bake_options *all, alpi_bytes *b)

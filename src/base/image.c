@@ -2,6 +2,7 @@
 // Images: storage, look-up, comparison.
 #include "base/image.h"
 
+#include "base/hash.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -75,6 +76,15 @@ uint8_t *alp_image_bytes(alp_image *image)
 float *alp_image_floats(alp_image *image)
 {
     return image && image->info.component == ALP_COMPONENT_FLOAT ? image->pixels : NULL;
+}
+
+uint64_t alpi_image_hash(uint64_t hash, const alp_image *image)
+{
+    const alp_image_info i = image->info;
+    const size_t size = i.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
+    const uint32_t shape[] = {i.width, i.height, i.channels, (uint32_t)i.component};
+    hash = alpi_hash_bytes(hash, shape, sizeof shape);
+    return alpi_hash_bytes(hash, image->pixels, (size_t)i.width * i.height * i.channels * size);
 }
 
 const void *alp_image_pixels(const alp_image *image)

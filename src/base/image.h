@@ -49,6 +49,8 @@ void alpi_image_pixel(const alp_image *image, uint32_t x, uint32_t y, float rgba
 
 /// sRGB transfer (IEC 61966-2-1): encoded [0, 1] → linear.
 float alpi_srgb_to_linear(float encoded);
+/// Continues a hash (base/hash.h) over shape and pixels.
+uint64_t alpi_image_hash(uint64_t hash, const alp_image *image);
 /// Linear → encoded [0, 1]; the input is clamped to [0, 1].
 float alpi_linear_to_srgb(float linear);
 

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "formats/collada/collada_read.h"
+#include "formats/collada/write/collada_patch.h"
 #include "formats/gltf/gltf_bytes.h"
 #include "formats/gltf/gltf_tree.h"
 #include "formats/obj/obj.h"
@@ -123,18 +124,6 @@ bool alp_scene_refers_to(const alp_scene *scene, const char *path)
     return held || result != ALP_OK;
 }
 
-static bool collada_is_ours(const alpi_collada_document *d)
-{
-    const xmlNode *extra = alpi_xml_child(d->root, "extra");
-    for (; extra != NULL; extra = alpi_xml_next(extra, "extra")) {
-        const char *type = alpi_xml_attribute(extra, "type");
-        if (type != NULL && strcmp(type, "alpenglow") == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool alpi_scene_is_ours(const alp_scene *scene)
 {
     const alpi_gltf_document *gltf = scene->attachments[ALPI_ATTACHMENT_DOCUMENT].data;
@@ -144,6 +133,6 @@ bool alpi_scene_is_ours(const alp_scene *scene)
         const json_t *extras = json_object_get(json_object_get(gltf->root, "asset"), "extras");
         return json_object_get(extras, "alpenglow") != NULL;
     }
-    return (collada != NULL && collada_is_ours(collada->document)) ||
+    return (collada != NULL && alpi_collada_was_baked(collada->document)) ||
            (obj != NULL && alpi_obj_skip_header(obj->file.text, obj->file.size) != obj->file.text);
 }

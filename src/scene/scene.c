@@ -446,14 +446,33 @@ alp_camera alp_scene_get_camera(const alp_scene *scene, uint32_t index)
     return index < scene->camera_count ? scene->cameras[index] : alpi_viewpoint_usual(scene);
 }
 
+static uint64_t hash_light(uint64_t hash, const alpi_light *l)
+{
+    const float values[] = {(float)l->kind, l->color.x,     l->color.y,     l->color.z,
+                            l->intensity,   l->position.x,  l->position.y,  l->position.z,
+                            l->direction.x, l->direction.y, l->direction.z, l->range,
+                            l->inner_cone,  l->outer_cone,  l->size};
+    return alpi_hash_bytes(hash, values, sizeof values);
+}
+
 uint64_t alpi_scene_pose_hash(const alp_scene *scene)
 {
     uint64_t hash = alpi_hash_bytes(ALPI_HASH_START, scene->positions,
                                     scene->vertex_count * sizeof *scene->positions);
+    hash =
+        alpi_hash_bytes(hash, scene->triangles, scene->triangle_count * sizeof *scene->triangles);
     for (uint32_t i = 0; i < scene->light_count; i++) {
-        const alpi_light *l = &scene->lights[i];
-        hash = alpi_hash_bytes(hash, &l->position, sizeof l->position);
-        hash = alpi_hash_bytes(hash, &l->direction, sizeof l->direction);
+        hash = hash_light(hash, &scene->lights[i]);
+    }
+    return hash;
+}
+
+uint64_t alpi_scene_images_hash(const alp_scene *scene)
+{
+    uint64_t hash = ALPI_HASH_START;
+    for (uint32_t i = 0; i < scene->image_count; i++) {
+        hash = alpi_hash_bytes(hash, &i, sizeof i);
+        hash = scene->images[i] != NULL ? alpi_image_hash(hash, scene->images[i]) : hash;
     }
     return hash;
 }

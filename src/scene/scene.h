@@ -203,6 +203,8 @@ const char *alpi_scene_second_set(const alp_scene *scene);
 
 /// Fingerprint of the shape and the lights, which a pose moves.
 uint64_t alpi_scene_pose_hash(const alp_scene *scene);
+/// Fingerprint of the images that were read. The content of the file does not hold them all.
+uint64_t alpi_scene_images_hash(const alp_scene *scene);
 
 /// Warns of a scene that is mostly metal by glTF's default: a metal has no diffuse colour for a
 /// viewer to multiply a light map by. A metal that the file states is meant, and a black one may

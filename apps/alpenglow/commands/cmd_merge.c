@@ -154,15 +154,5 @@ int command_merge(const command_line *a)
     if (check_output(a->values[OPTION_OUTPUT].text) != EXIT_DONE) {
         return EXIT_USAGE;
     }
-    alp_context *context = NULL;
-    alp_checkpoint_info *info = NULL;
-    alp_result result = alp_context_create(NULL, &context);
-    if (result != ALP_OK) {
-        return failure(alp_result_name(result));
-    }
-    result = alp_checkpoint_read(context, a->operands[0], &info);
-    const int code = result == ALP_OK ? merge(a, info) : failure(alp_context_message(context));
-    alp_checkpoint_info_destroy(info);
-    alp_context_destroy(context);
-    return code;
+    return checkpoint_run(a, merge);
 }

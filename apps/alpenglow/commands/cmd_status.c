@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 #include "output.h"
 #include "printing/messages.h"
+#include "scale/checkpoints.h"
 
 #include <alpenglow/alpenglow.h>
 
@@ -93,7 +94,7 @@ static int write_json(const alp_checkpoint_process *p, uint32_t count, const com
     return code;
 }
 
-static int print(const alp_checkpoint_info *info, const command_line *a)
+static int print(const command_line *a, const alp_checkpoint_info *info)
 {
     uint32_t count = 0;
     const alp_checkpoint_process *p = alp_checkpoint_processes(info, &count);
@@ -117,15 +118,5 @@ static int print(const alp_checkpoint_info *info, const command_line *a)
 
 int command_status(const command_line *a)
 {
-    alp_context *context = NULL;
-    alp_checkpoint_info *info = NULL;
-    alp_result result = alp_context_create(NULL, &context);
-    if (result != ALP_OK) {
-        return failure(alp_result_name(result));
-    }
-    result = alp_checkpoint_read(context, a->operands[0], &info);
-    const int code = result == ALP_OK ? print(info, a) : failure(alp_context_message(context));
-    alp_checkpoint_info_destroy(info);
-    alp_context_destroy(context);
-    return code;
+    return checkpoint_run(a, print);
 }

@@ -187,3 +187,21 @@ int checkpoint_read(const command_line *a, alp_bake_options *o, char **restart)
     }
     return EXIT_DONE;
 }
+
+// --- folders -------------------------------------------------------------------------------------
+
+int checkpoint_run(const command_line *a,
+                   int (*body)(const command_line *arguments, const alp_checkpoint_info *info))
+{
+    alp_context *context = NULL;
+    alp_checkpoint_info *info = NULL;
+    alp_result result = alp_context_create(NULL, &context);
+    if (result != ALP_OK) {
+        return failure(alp_result_name(result));
+    }
+    result = alp_checkpoint_read(context, a->operands[0], &info);
+    const int code = result == ALP_OK ? body(a, info) : failure(alp_context_message(context));
+    alp_checkpoint_info_destroy(info);
+    alp_context_destroy(context);
+    return code;
+}

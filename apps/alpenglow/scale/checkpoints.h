@@ -13,6 +13,11 @@
 /// @return EXIT_DONE, or EXIT_USAGE after a message
 int checkpoint_read(const command_line *arguments, alp_bake_options *o, char **restart);
 
+/// Reads the folder of operand 0, and runs a body on it. @return the body's code, or EXIT_FAILED
+/// after a message
+int checkpoint_run(const command_line *arguments,
+                   int (*body)(const command_line *arguments, const alp_checkpoint_info *info));
+
 /// The words of a bake's command from a restart text.
 typedef struct restart_words {
     char *folder; // where the command ran

@@ -20,8 +20,9 @@ alp_result alpi_probes_begin_ranks(const alp_scene *scene, const alp_probe_optio
     alpi_bytes settings = alpi_bytes_create(scene->context);
     alpi_bytes_print(&settings, "alpenglow %s\ninstructions %s\n", alp_version(),
                      alpi_context_isa(scene->context));
-    alpi_bytes_print(&settings, "SCENE-content %016" PRIx64 "\npose %016" PRIx64 "\n",
-                     scene->input_hash, alpi_scene_pose_hash(scene));
+    alpi_bytes_print(&settings,
+                     "SCENE-content %016" PRIx64 "\npose %016" PRIx64 "\nimages %016" PRIx64 "\n",
+                     scene->input_hash, alpi_scene_pose_hash(scene), alpi_scene_images_hash(scene));
     alpi_bytes_print(&settings, "light %016" PRIx64 "\nmetals %d\none-sided %d\n",
                      alpi_lighting_options_hash(&o.lighting), scene->metals_black, o.one_sided);
     alpi_bytes_print(&settings, "probe-places %016" PRIx64 "\nspacing %a\n", places,

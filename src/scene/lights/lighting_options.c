@@ -173,15 +173,6 @@ static uint64_t hash_floats(uint64_t hash, const float *values, size_t count)
     return alpi_hash_bytes(hash, values, count * sizeof *values);
 }
 
-static uint64_t hash_image(uint64_t hash, const alp_image *image)
-{
-    const alp_image_info i = image->info;
-    const size_t size = i.component == ALP_COMPONENT_FLOAT ? sizeof(float) : 1;
-    hash = hash_number(hash_number(hash, i.width), i.height);
-    hash = hash_number(hash_number(hash, i.channels), (uint32_t)i.component);
-    return alpi_hash_bytes(hash, image->pixels, (size_t)i.width * i.height * i.channels * size);
-}
-
 static uint64_t hash_sky(uint64_t hash, const alp_sky_options *sky)
 {
     const float numbers[] = {sky->turn, sky->strength, sky->turbidity};
@@ -189,7 +180,7 @@ static uint64_t hash_sky(uint64_t hash, const alp_sky_options *sky)
     hash = hash_floats(hash, sky->up, 3);
     hash = hash_floats(hash, sky->down, 3);
     hash = hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
-    return sky->image != NULL ? hash_image(hash, sky->image) : hash;
+    return sky->image != NULL ? alpi_image_hash(hash, sky->image) : hash;
 }
 
 static uint64_t hash_lamp(uint64_t hash, const alp_lamp *lamp)
@@ -202,6 +193,15 @@ static uint64_t hash_lamp(uint64_t hash, const alp_lamp *lamp)
     return hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
 }
 
+uint64_t alpi_lamps_hash(uint64_t hash, const alp_lighting_options *o)
+{
+    hash = hash_number(hash, o->lamp_count);
+    for (uint32_t i = 0; i < o->lamp_count && o->lamps != NULL; i++) {
+        hash = hash_lamp(hash, &o->lamps[i]);
+    }
+    return hash;
+}
+
 uint64_t alpi_lighting_options_hash(const alp_lighting_options *o)
 {
     const float numbers[] = {o->sun.azimuth, o->sun.elevation, o->sun.illuminance, o->sun.size,
@@ -209,9 +209,5 @@ uint64_t alpi_lighting_options_hash(const alp_lighting_options *o)
     uint64_t hash = hash_sky(ALPI_HASH_START, &o->sky);
     hash = hash_floats(hash, numbers, sizeof numbers / sizeof *numbers);
     hash = hash_floats(hash, o->sun.color, 3);
-    hash = hash_number(hash, o->lamp_count);
-    for (uint32_t i = 0; i < o->lamp_count && o->lamps != NULL; i++) {
-        hash = hash_lamp(hash, &o->lamps[i]);
-    }
-    return hash;
+    return alpi_lamps_hash(hash, o);
 }

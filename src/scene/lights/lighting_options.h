@@ -13,6 +13,8 @@ alp_result alpi_lighting_options_check(alp_context *context, const alp_lighting_
 /// Fingerprint of all fields by value, with the lamps and the pixels of a sky image. The options
 /// need no check before.
 uint64_t alpi_lighting_options_hash(const alp_lighting_options *options);
+/// Continues a hash (base/hash.h) over the lamps alone.
+uint64_t alpi_lamps_hash(uint64_t hash, const alp_lighting_options *options);
 
 /// A checked lamp as a light. @param name borrowed
 alpi_light alpi_lamp_light(const alp_lamp *lamp, char *name);
