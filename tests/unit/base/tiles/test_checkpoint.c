@@ -117,14 +117,19 @@ static bool has_file(const char *name)
     return access(test_path(folder, name), F_OK) == 0;
 }
 
-/// Stops a bake of these settings in its second loop. @return items that it ran
-static uint32_t stop_bake(const char *settings)
+/// Stops a bake of these settings in the middle of a loop. @return items that it ran
+static uint32_t stop_in_loop(const char *settings, uint32_t loop)
 {
     process p = start("bake", settings);
-    p.stop = ITEMS + ITEMS / 2;
+    p.stop = loop * ITEMS + ITEMS / 2;
     assert_int_equal(run(&p), ALP_ERROR_CANCELLED);
     assert_false(p.resumed);
     return p.ran;
+}
+
+static uint32_t stop_bake(const char *settings)
+{
+    return stop_in_loop(settings, 1);
 }
 
 TEST(finished_tiles_are_read)
@@ -155,15 +160,16 @@ TEST(tiles_of_another_choice_run_again)
     assert_int_equal(p.ran, LOOPS * ITEMS);
 }
 
-/// Loops that fill a cache run again; the others are read.
+/// Loops that fill a cache run again; the others are read: here the first loop and a part of the
+/// last run.
 TEST(caches_are_filled_again)
 {
     new_folder();
-    (void)stop_bake("a 1\n");
+    (void)stop_in_loop("a 1\n", 2);
     process p = start("bake", "a 1\n");
     p.cached = 0;
     ASSERT_OK(context, run(&p));
-    assert_true(p.ran >= 2 * ITEMS && p.ran < LOOPS * ITEMS);
+    assert_true(p.ran > ITEMS && p.ran <= 2 * ITEMS);
 }
 
 TEST(other_settings_are_named)
