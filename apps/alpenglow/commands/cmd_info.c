@@ -406,7 +406,7 @@ static int print_probes(session *s, const command_line *a)
         const alp_probes_info info = alp_probes_get_info(probes);
         const bool fits = info.scene_hash == alp_scene_get_info(s->scene).hash;
         printf("\n");
-        probes_print(&info);
+        probes_print(probes);
         printf("baked in   %s\n",
                fits ? "this scene"
                     : "another scene, or this one before it changed: bake them again");
@@ -435,8 +435,7 @@ static int show_probe_file(const command_line *a)
         code = session_end(&s, alp_probes_load(s.context, a->operands[0], &probes));
     }
     if (code == EXIT_DONE) {
-        const alp_probes_info info = alp_probes_get_info(probes);
-        probes_print(&info);
+        probes_print(probes);
     }
     alp_probes_destroy(probes);
     session_close(&s);

@@ -47,8 +47,7 @@ static int check_options(const command_line *a)
 
 static void print_summary(const char *output, const alp_probes *probes, double seconds)
 {
-    const alp_probes_info info = alp_probes_get_info(probes);
-    probes_print(&info);
+    probes_print(probes);
     printf("wrote      ");
     print_clean(stdout, output);
     printf(", %.2f s\n", seconds);

@@ -201,8 +201,9 @@ alp_result field_lpv_follow(field_source *source, const alp_camera *camera)
     return result == ALP_OK ? lpv_run_light(source->lpv, NULL) : result;
 }
 
-void probes_print(const alp_probes_info *i)
+void probes_print(const alp_probes *probes)
 {
+    const alp_probes_info info = alp_probes_get_info(probes), *i = &info;
     static const char *const bases[] = {"sh9", "sh4", "ambient-cube"};
     if (i->is_list) {
         printf("probes     %u at listed places", i->count);
@@ -215,6 +216,10 @@ void probes_print(const alp_probes_info *i)
     printf("states     %u valid, %u moved out of solids, %u filled in solids, %u black\n",
            i->states[ALP_PROBE_VALID], i->states[ALP_PROBE_MOVED], i->states[ALP_PROBE_FILLED],
            i->states[ALP_PROBE_INVALID]);
+    for (uint32_t k = 0; k < i->layers; k++) {
+        printf("%s%s%s", k == 0 ? "layers     " : ", ", alp_probes_layer_name(probes, k),
+               k + 1 == i->layers ? "\n" : "");
+    }
     printf("mean irradiance %.4g W/m2\n", (double)i->mean);
     printf("noise      %.2g %% of the mean, %u ray%s a probe\n", 100.0 * (double)i->error, i->rays,
            plural(i->rays));

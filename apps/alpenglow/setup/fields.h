@@ -63,7 +63,7 @@ int field_lpv(session *s, const command_line *arguments, const alp_lighting_opti
 /// @return as the library
 alp_result field_lpv_follow(field_source *source, const alp_camera *camera);
 /// Prints what probes hold, and how good they are.
-void probes_print(const alp_probes_info *info);
+void probes_print(const alp_probes *probes);
 void field_source_clear(field_source *source);
 
 #endif
