@@ -121,6 +121,9 @@ static void loop_report(loop *l, bool always)
     alp_progress report = {p->stage, (uint64_t)done, (uint64_t)total,
                            p->units_are_rays ? rate : 0.0,
                            rate > 0.0 ? (total - done) / rate : -1.0};
+    if (p->silent) {
+        report = (alp_progress){.stage = p->stage, .seconds_left = -1.0};
+    }
     if (!p->callback(p->user, &report)) {
         loop_fail(l, UINT32_MAX, ALP_ERROR_CANCELLED);
         atomic_store_explicit(&l->stop, true, memory_order_relaxed);

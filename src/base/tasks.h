@@ -23,6 +23,7 @@ typedef struct alpi_task_progress {
     double units_total;    ///< of the whole stage; 0 = this loop alone
     double started;        ///< alpi_seconds() when the stage began; 0 = with this loop
     bool units_are_rays;   ///< then rays_per_second is reported
+    bool silent;           ///< a short loop of a stage: reports 0 of 0, and may be cancelled
 } alpi_task_progress;
 
 /// Runs body over [0, count) in ranges of `grain` (> 0) on all workers of the context; returns when

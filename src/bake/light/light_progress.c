@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Share of the rest of its part that a loop takes, as a guess: the number of loops is unknown.
+/// Share of the rest of its part that a loop takes, as a guess where the number of loops is unknown.
 static const double LOOP_SHARE = 0.5;
 /// The most progress before the end: the number of rounds is unknown.
 static const double MOST_REPORTED = 0.99;
@@ -33,9 +33,16 @@ alpi_light_clock alpi_light_clock_start(const alpi_bake_job *job,
 void alpi_light_clock_part(alpi_light_clock *c, bool one_loop, double after)
 {
     c->part_began = alpi_seconds();
-    c->one_loop = one_loop;
+    c->loop_share = one_loop ? 1.0 : LOOP_SHARE;
     c->after = after;
     c->base = c->share = c->loop = 0.0;
+}
+
+void alpi_light_clock_loop(alpi_light_clock *c, double share)
+{
+    c->base = c->share;
+    c->loop = 0.0;
+    c->loop_share = share;
 }
 
 bool alpi_light_clock_is_late(const alpi_light_clock *c)
@@ -50,8 +57,7 @@ static void follow(alpi_light_clock *c, double loop)
         c->base = c->share;
     }
     c->loop = loop;
-    const double room = (1.0 - c->base) * (c->one_loop ? 1.0 : LOOP_SHARE);
-    c->share = fmax(c->share, c->base + room * loop);
+    c->share = fmax(c->share, c->base + (1.0 - c->base) * c->loop_share * loop);
 }
 
 bool alpi_light_clock_goes_on(void *user, const alp_progress *progress)

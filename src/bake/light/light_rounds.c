@@ -80,7 +80,9 @@ static alp_result add_rays(alpi_light_rounds *r, uint32_t rays)
     double noise;
     uint32_t count;
     const uint32_t *list = alpi_light_tracing_texels(r, &count);
+    alpi_light_clock_part(r->light->clock, false, 1.0);
     ALP_TRY(alpi_light_relight(r, r->rays.per_texel, &noise));
+    alpi_light_clock_part(r->light->clock, true, 0.0);
     ALP_TRY(alpi_light_gather(r, rays, &r->fresh));
     for (uint32_t i = 0; i < count; i++) {
         merge_texel(r, list[i], rays);
@@ -128,7 +130,6 @@ static alp_result run_round(alpi_light_rounds *r, const alpi_light_plan *plan, b
     const double rays = alpi_light_affordable(
         r, plan->rays, r->rays.seconds * fmin(count, r->rays.traced), r->rays.per_texel);
     if (rays > 0.0) {
-        alpi_light_clock_part(r->light->clock, true, 0.0);
         ALP_TRY(add_rays(r, alpi_light_ray_count(rays)));
     }
     r->cut_off = r->cut_off || samples < plan->direct || rays < plan->rays;

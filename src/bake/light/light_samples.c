@@ -334,12 +334,31 @@ static alp_result find_classes(void *user, uint32_t begin, uint32_t end, uint32_
     return ALP_OK;
 }
 
+/// Samples of the texels of each class.
+static double count_samples(const share_job *job, double samples[CLASSES])
+{
+    double sum = 0.0;
+    for (int k = 0; k < CLASSES; k++) {
+        samples[k] = 0.0;
+    }
+    for (uint32_t i = 0; i < job->count; i++) {
+        const uint8_t k = job->marks[job->list[i]];
+        if (k < CLASSES) {
+            samples[k] += samples_of(k);
+            sum += samples_of(k);
+        }
+    }
+    return sum;
+}
+
 static alp_result sample_classes(share_job *job, bool *added)
 {
-    double samples = 0.0;
     const double began = alpi_seconds();
     ALP_TRY(alpi_parallel_for(job->rounds->light->job->context, job->count, TEXELS_PER_RANGE,
                               find_classes, job, NULL));
+    double of_class[CLASSES];
+    const double samples = count_samples(job, of_class);
+    double left = samples;
     for (int k = 0; k < CLASSES; k++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < job->count; i++) {
@@ -347,8 +366,9 @@ static alp_result sample_classes(share_job *job, bool *added)
             count += job->marks[job->list[i]] == k;
         }
         if (count > 0) {
+            alpi_light_clock_loop(job->rounds->light->clock, of_class[k] / left);
             ALP_TRY(sample_class(job, count, samples_of(k)));
-            samples += (double)count * samples_of(k);
+            left -= of_class[k];
         }
     }
     *added = samples > 0.0;

@@ -21,7 +21,7 @@ static const float NEAR_SPREAD = 0.3f;
 static alp_result for_texels(alpi_final_gather_job *job, alpi_task_fn *body)
 {
     alpi_task_progress silent = job->progress;
-    silent.units_total = 0.0;
+    silent.silent = true;
     return alpi_parallel_for(job->lattice.context, job->options->count, TEXELS_PER_RANGE, body, job,
                              &silent);
 }
@@ -153,7 +153,7 @@ static alp_result refine(alpi_final_gather_job *job)
         ALP_TRY(flood(job, &last));
     }
     alpi_task_progress silent = job->progress;
-    silent.units_total = 0.0;
+    silent.silent = true;
     return alpi_lattice_for_stencils(&job->lattice, job->options->order, job->options->count,
                                      interpolate, job, &silent);
 }

@@ -69,7 +69,7 @@ alp_result alpi_patches_set_reach(const alpi_patches *patches, const alpi_task_p
 {
     double sums[ALPI_SUM_LIMIT] = {0.0};
     alpi_task_progress silent = *progress;
-    silent.units_total = 0.0;
+    silent.silent = true;
     ALP_TRY(alpi_parallel_sum(patches->context, patches->texels->count, sum_light, patches, &silent,
                               sums));
     if (!(sums[0] > 0.0)) {
