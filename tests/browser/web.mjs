@@ -2,7 +2,7 @@
 // node web.mjs FOLDER ALPENGLOW: opens the pages that web.sh wrote, by file://, clicks their switches
 // and compares what they show with the pictures of alpenglow render.
 import { execFileSync } from 'node:child_process';
-import { copyFile, readFile, stat } from 'node:fs/promises';
+import { copyFile, readFile, readdir, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
 
@@ -118,21 +118,33 @@ async function checkOcclusion(page, scene) {
   await compare(page, `${scene} occlusion`, picture.png);
 }
 
+/// Replaces the light map of a scene, page by page, by that of one lamp. @returns the number of pages
+async function showOneLamp(scene) {
+  const lamp = (await readdir(path.join(folder, scene))).filter((name) => /^irradiance\.lamp(\.\d+)?\.exr$/.test(name));
+  for (const name of lamp) {
+    const own = name.replace('irradiance.lamp', `${scene}.light`);
+    await copyFile(path.join(folder, scene, name), path.join(folder, own));
+  }
+  return lamp.length;
+}
+
 /// Two lamps, of which one is dimmed to nothing: what is left is the map of the other.
-async function checkLayers() {
-  const page = await open('layers.glb.html');
+/// @param reference a scene with the same light as floats in files   @param pages least number of them
+async function checkLayers(scene, reference, pages) {
+  const page = await open(`${scene}.glb.html`);
   await ready(page);
   await page.fill('#exposure', String(exposure));
   const options = ['--with', 'lightmap', '--exposure', String(exposure)];
-  await compare(page, 'layers', (await render('layers.glb', ...options)).png);
+  await compare(page, scene, (await render(`${reference}.glb`, ...options)).png);
   const before = await shoot(page);
   const dimmer = page.getByLabel('lamp 0');
   await dimmer.focus();
   await page.keyboard.press('Home');
-  await copyFile(path.join(folder, 'maps', 'irradiance.lamp.exr'), path.join(folder, 'layers.light.exr'));
-  await compare(page, 'layers, one dimmed', (await render('layers.glb', ...options)).png);
+  const count = await showOneLamp(reference);
+  check(`${scene} pages`, count >= pages, `${count}`);
+  await compare(page, `${scene}, one dimmed`, (await render(`${reference}.glb`, ...options)).png);
   const change = await difference(page, await shoot(page), before);
-  check('dimmer', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
+  check(`${scene} dimmer`, change > seen, `changes the picture by ${change.toFixed(1)}/255`);
   await page.context().close();
 }
 
@@ -196,6 +208,76 @@ async function checkProbes() {
   await page.context().close();
 }
 
+/// Fluence of a cell, by the irradiance that alpenglow sample finds on both sides of a surface there:
+/// a surface reads the cell half a side above itself. 4 E: the mean of E over all normals is Φ / 4.
+function sampleFluence(centre, cell) {
+  const points = [1, -1].map((sign) => [...centre.map((c, k) => c - (k === 1 ? (sign * cell) / 2 : 0)), 0, sign, 0].join());
+  const words = ['sample', 'builtin:cornell', '--with', 'lpv', '--grid', '16', '--at', '-', '-q'];
+  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${points.join('\n')}\n` });
+  const [up, down] = printed.trim().split('\n').slice(-2).map((line) => line.split(',').slice(6, 9).map(Number));
+  return { fluence: up.map((e, k) => 2 * (e + down[k])), isCut: [...up, ...down].some((e) => e <= 0) };
+}
+
+/// A slice that was clicked on: its cells beside the file, and beside alpenglow sample.
+async function checkSlices() {
+  const page = await open('slices.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const before = await shoot(page);
+  check('slice off', await page.isHidden('#slice'), 'its controls are hidden');
+  await toggle(page, 'slices');
+  await page.focus('#slice-axis');
+  await page.keyboard.type('z');
+  await page.focus('#slice-place');
+  await page.keyboard.press('Home');
+  const layer = 5;
+  for (let i = 0; i < layer; i++) await page.keyboard.press('ArrowRight');
+  const change = await difference(page, await shoot(page), before);
+  check('slice', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
+  const [grid] = JSON.parse(await readFile(path.join(folder, 'cornell.lpv.json'), 'utf8')).grids;
+  const text = await page.textContent('#slice-value');
+  const place = grid.corner[2] + (layer + 0.5) * grid.cell;
+  check('slice place', Math.abs(parseFloat(text) - place) < 1e-3, `${text}, layer ${layer} at ${place.toFixed(4)} m`);
+  await page.locator('#controls > summary').click();
+  for (const [x, y] of [[4, 11], [8, 11], [12, 7]]) {
+    const cell = [x, y, layer];
+    const centre = cell.map((c, k) => grid.corner[k] + (c + 0.5) * grid.cell);
+    const first = 3 * (x + 16 * (y + 16 * layer));
+    const written = grid.fluence.slice(first, first + 3);
+    const { fluence, isCut } = sampleFluence(centre, grid.cell);
+    const wanted = fluence.map((f) => displayed(f / 4)); // radiance Φ / 4π is that of E = Φ / 4
+    const got = await pixelOf(page, seenAt(centre).pixel);
+    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
+    const apart = Math.max(...written.map((w, k) => Math.abs(w / fluence[k] - 1)));
+    check(`slice at ${cell}`, !isCut && worst <= 1.5 && apart < 1e-3, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}; file within ${apart.toExponential(1)}`);
+  }
+  await page.locator('#controls > summary').click();
+  await toggle(page, 'light');
+  const dark = await shoot(page);
+  await toggle(page, 'slices');
+  check('slice without light', (await difference(page, await shoot(page), dark)) < 0.01, 'is not drawn');
+  await page.context().close();
+}
+
+/// Several grids: one is chosen, and its slices have its own cells.
+async function checkGrids() {
+  const page = await open('grids.html', { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
+  await ready(page);
+  await label(page, 'slices').tap();
+  const { grids } = JSON.parse(await readFile(path.join(folder, 'grids.lpv.json'), 'utf8'));
+  const labels = await page.locator('#slice-grid option').allTextContents();
+  check('grids', labels.length === 2 && labels[1].includes(String(Number(grids[1].cell.toPrecision(3)))), labels.join(', '));
+  const before = await shoot(page);
+  await page.selectOption('#slice-grid', '1');
+  const change = await difference(page, await shoot(page), before);
+  const place = grids[1].corner[0] + 4.5 * grids[1].cell;
+  const text = await page.textContent('#slice-value');
+  check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
+  const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);
+  check('grids, phone', !wide, 'the panel fits');
+  await page.context().close();
+}
+
 async function checkCamera() {
   const page = await open('ao.gltf.html');
   await ready(page);
@@ -252,7 +334,11 @@ async function checkMessages() {
 }
 
 for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
-await checkLayers();
+await checkLayers('layers', 'layers', 1);
+await checkLayers('pages', 'pages', 2);
+await checkLayers('moz8', 'twin', 2);
+await checkSlices();
+await checkGrids();
 await checkProbes();
 await checkCamera();
 await checkPhone();

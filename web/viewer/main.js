@@ -9,6 +9,7 @@ import { buildPanel } from 'alpenglow/panel.js';
 import { makeLayers } from 'alpenglow/layers.js';
 import { makeSphere } from 'alpenglow/probes.js';
 import { loadScene } from 'alpenglow/scene.js';
+import { makeSlices } from 'alpenglow/slices.js';
 
 const canvas = document.getElementById('view');
 const message = document.getElementById('message');
@@ -53,7 +54,7 @@ function resize(renderer, camera) {
 }
 
 async function start(renderer) {
-  const { gltf, name, layers, probes } = await loadScene(renderer);
+  const { gltf, name, layers, probes, grids } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
@@ -66,14 +67,15 @@ async function start(renderer) {
   const apply = makeSwitch(materials, found);
   const plain = plainLight(found);
   scene.add(plain);
-  const state = { light: found.light !== null, occlusion: found.occlusion && found.light === null, colours: true };
+  const state = { light: found.light !== null, occlusion: found.occlusion && found.light === null, colours: true, slices: false };
   let waits = false;
   const draw = () => {
     waits = false;
     renderer.render(scene, view.camera);
-    if (sphere === null || !sphere.scene.visible) return;
-    renderer.autoClear = false;
-    renderer.render(sphere.scene, view.camera);
+    renderer.autoClear = false; // the depth of the scene hides what lies behind it
+    for (const overlay of [sphere, slices]) {
+      if (overlay?.scene.visible) renderer.render(overlay.scene, view.camera);
+    }
     renderer.autoClear = true;
   };
   const request = () => {
@@ -81,6 +83,7 @@ async function start(renderer) {
     waits = true;
   };
   const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
+  const slices = grids.length > 0 ? makeSlices(grids, request) : null;
   const film = (exposure) => {
     setFilm(renderer, state.light, exposure);
     request();
@@ -88,7 +91,9 @@ async function start(renderer) {
   const show = () => {
     apply(state);
     plain.visible = !state.light;
-    if (sphere !== null) sphere.scene.visible = state.light || found.light === null; // even light is no probe's
+    const lit = state.light || found.light === null; // even light is not that of probes or slices
+    if (sphere !== null) sphere.scene.visible = lit;
+    if (slices !== null) slices.scene.visible = lit && state.slices;
     request();
   };
   show();
@@ -98,7 +103,7 @@ async function start(renderer) {
     request();
   });
   view.controls.addEventListener('change', request);
-  buildPanel({ name, found, layers, dim, sphere, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  buildPanel({ name, found, layers, dim, sphere, slices, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
   draw();
   document.documentElement.dataset.ready = 'true';

@@ -75,6 +75,34 @@ function addPlaces({ sphere }) {
   follow();
 }
 
+const metres = (value) => `${Number(value.toPrecision(3))} m`;
+
+/// The switch of the slice, its grid if there are several, its axis, and its place.
+function addSlices({ slices, state, show }) {
+  if (slices === null) return;
+  const [grid, axis, place, value] = ['slice-grid', 'slice-axis', 'slice-place', 'slice-value'].map(element);
+  slices.grids.forEach(({ cell }, i) => grid.add(new Option(`cells of ${metres(cell)}`, i)));
+  element('slice-grid-line').hidden = slices.grids.length < 2;
+  const draw = () => {
+    const found = slices.show(Number(grid.value), Number(axis.value), Number(place.value));
+    value.textContent = `${metres(found.place)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
+    place.setAttribute('aria-valuetext', value.textContent);
+  };
+  const start = () => {
+    const count = slices.grids[grid.value].size[axis.value];
+    Object.assign(place, { max: count - 1, value: Math.floor(count / 2) });
+    draw();
+  };
+  addSwitch('slices', 'Slice of light in space', 'mean radiance of each cell, with the light', { state, changed: () => {
+    element('slice').hidden = !state.slices;
+    show();
+  } });
+  grid.addEventListener('change', start);
+  axis.addEventListener('change', start);
+  place.addEventListener('input', draw);
+  start();
+}
+
 function notesOf({ found }) {
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
@@ -127,6 +155,7 @@ export function buildPanel(page) {
   addSwitches(page, changed);
   addDimmers(page);
   addPlaces(page);
+  addSlices(page);
   slider.addEventListener('input', () => expose(Number(slider.value)));
   element('auto').addEventListener('click', automatic);
   element('reset').addEventListener('click', () => {
