@@ -13,8 +13,9 @@ const allowed = 1; // mean of 255: edges and eight bits; without the blend it is
 const seen = 12; // least difference by which a switch must change the picture
 const faults = [];
 
+const program = { executablePath: process.env.CHROMIUM || '/usr/bin/chromium' };
 const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+  ...program,
   args: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
 });
 
@@ -148,6 +149,27 @@ async function checkLayers(scene, reference, pages) {
   await page.context().close();
 }
 
+/// Light above 65504, the end of half floats, and its exposure; dimmed and back.
+async function checkBrightLayers() {
+  const page = await open('bright.glb.html');
+  await ready(page);
+  const own = await render('bright.glb', '--with', 'lightmap');
+  const measured = Number(await page.inputValue('#exposure'));
+  check('bright exposure', Math.abs(measured - own.exposure) <= 0.15, `${measured} EV, render ${own.exposure}`);
+  await page.fill('#exposure', '-14');
+  const { png } = await render('bright.glb', '--with', 'lightmap', '--exposure', '-14');
+  await compare(page, 'bright', png);
+  const dimmer = page.getByLabel('lamp 1');
+  await dimmer.focus();
+  await page.keyboard.press('Home');
+  const change = await difference(page, await shoot(page), png);
+  check('bright dimmer', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
+  await dimmer.focus(); // shoot hides the panel
+  for (let i = 0; i < 100; i++) await page.keyboard.press('ArrowRight');
+  await compare(page, 'bright, back at 100 %', png);
+  await page.context().close();
+}
+
 /// The place at which the camera of the box, looking along +z, sees a point; and the normal that faces it.
 const eye = [0.278, 0.273, -0.8];
 const focal = side / 2 / Math.tan(0.686047912 / 2);
@@ -230,12 +252,12 @@ async function checkSlices() {
   await page.keyboard.type('z');
   await page.focus('#slice-place');
   await page.keyboard.press('Home');
-  const layer = 5;
-  for (let i = 0; i < layer; i++) await page.keyboard.press('ArrowRight');
+  for (let i = 0; i < 3; i++) await page.keyboard.press('ArrowRight');
   const change = await difference(page, await shoot(page), before);
   check('slice', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
   const [grid] = JSON.parse(await readFile(path.join(folder, 'cornell.lpv.json'), 'utf8')).grids;
   const text = await page.textContent('#slice-value');
+  const layer = Math.floor(-grid.corner[2] / grid.cell) + 3; // the scene begins at z = 0
   const place = grid.corner[2] + (layer + 0.5) * grid.cell;
   check('slice place', Math.abs(parseFloat(text) - place) < 1e-3, `${text}, layer ${layer} at ${place.toFixed(4)} m`);
   await page.locator('#controls > summary').click();
@@ -270,7 +292,9 @@ async function checkGrids() {
   const before = await shoot(page);
   await page.selectOption('#slice-grid', '1');
   const change = await difference(page, await shoot(page), before);
-  const place = grids[1].corner[0] + 4.5 * grids[1].cell;
+  const first = Math.floor(-grids[1].corner[0] / grids[1].cell); // the scene reaches from 0 to 0.556 m
+  const last = Math.floor((0.556 - grids[1].corner[0]) / grids[1].cell);
+  const place = grids[1].corner[0] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
   const text = await page.textContent('#slice-value');
   check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
   const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);
@@ -324,6 +348,13 @@ async function checkMessages() {
   const text = await blind.textContent('#message');
   check('no WebGL', /has no WebGL 2/.test(text) && (await blind.isHidden('#view')), text);
   await blind.context().close();
+  const without = await chromium.launch({ ...program, args: ['--disable-gpu', '--disable-3d-apis'] });
+  const plain = await without.newPage();
+  await plain.goto(`file://${path.join(folder, 'ao.gltf.html')}`);
+  const told = plain.locator('#message', { hasText: 'has no WebGL 2' });
+  await told.waitFor({ timeout: 10000 }).catch(() => {});
+  check('Chromium without WebGL', (await told.isVisible()) && (await plain.isHidden('#panel')), 'says so, without a panel');
+  await without.close();
   const hostile = await open('hostile.html');
   await ready(hostile);
   const name = await hostile.textContent('#name');
@@ -337,6 +368,7 @@ for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.g
 await checkLayers('layers', 'layers', 1);
 await checkLayers('pages', 'pages', 2);
 await checkLayers('moz8', 'twin', 2);
+await checkBrightLayers();
 await checkSlices();
 await checkGrids();
 await checkProbes();

@@ -40,6 +40,7 @@ layers layers --lightmap-as extras --lightmap-format exr
 layers pages --lightmap-as extras --lightmap-format exr --texels-per-metre 90
 layers twin --lightmap-as extras --lightmap-format exr --texels-per-metre 90
 layers moz8 --lightmap-as moz --texels-per-metre 90
+layers bright --lightmap-as extras --lightmap-format exr --lamp 0.2,0.3,0.3,4e5,1,0.8,0.5
 "$alpenglow" probes builtin:cornell -o cornell.probes.json --spacing 0.2 -q
 "$alpenglow" web moz.glb -q -o probes.html --probes cornell.probes.json
 "$alpenglow" lpv builtin:cornell --grid 16 --frames 1 --volume cornell.lpv.json -q

@@ -9,7 +9,7 @@ const fragmentShader =
 
 function quadOf() {
   const material = new THREE.ShaderMaterial({
-    uniforms: { map: { value: null }, strength: { value: 1 } },
+    uniforms: { map: { value: null }, strength: { value: 0 } },
     vertexShader,
     fragmentShader,
     depthTest: false,
@@ -26,8 +26,8 @@ function quadOf() {
 
 /// One texture for each page of the atlas and each coordinate set that materials read it with. Sets
 /// beyond the fourth belong to blended maps, whose shader has its own coordinates.
-/// @returns [{ page, target }]
-function makeTargets(materials, pages) {
+/// @param scale what 1 of a texture stands for   @returns [{ page, target }]
+function makeTargets(materials, pages, scale) {
   const targets = new Map();
   for (const material of materials.filter((m) => m.lightMap !== null)) {
     const channel = material.lightMap.channel > 3 ? 0 : material.lightMap.channel;
@@ -41,16 +41,31 @@ function makeTargets(materials, pages) {
       targets.set(key, { page, target });
     }
     material.lightMap = targets.get(key).target.texture;
-    material.lightMapIntensity = 1;
+    material.lightMapIntensity = scale;
   }
   return [...targets.values()];
 }
 
+/// The strongest that a light can be dimmed to.
+export const largestStrength = 2;
+
+/// A power of two: with it as 1, the sum of all lights at their strongest fits half floats.
+function scaleOf(layers) {
+  const largest = ({ pages }) => pages.reduce((most, { image }) => image.data.reduce((a, b) => Math.max(a, b), most), 0);
+  const sum = layers.reduce((total, layer) => total + largestStrength * largest(layer), 0);
+  return 2 ** Math.max(0, Math.ceil(Math.log2(sum / 65504)));
+}
+
 /// Call it before the maps are switched or blended. @returns dim(index, strength)
 export function makeLayers(layers, materials, renderer) {
-  const targets = makeTargets(materials, layers[0].pages);
+  const scale = scaleOf(layers);
+  const targets = makeTargets(materials, layers[0].pages, scale);
+  for (const map of layers.flatMap(({ pages }) => pages)) { // not all devices filter floats
+    map.minFilter = map.magFilter = THREE.NearestFilter;
+  }
   const scene = new THREE.Scene();
   const quads = layers.map(quadOf);
+  const dim = (index, strength) => (quads[index].material.uniforms.strength.value = strength / scale);
   scene.add(...quads);
   const camera = new THREE.Camera();
   const sum = () => {
@@ -64,9 +79,10 @@ export function makeLayers(layers, materials, renderer) {
     renderer.setRenderTarget(null);
     renderer.setClearColor(clear, 1);
   };
+  layers.forEach((layer, i) => dim(i, 1));
   sum();
   return (index, strength) => {
-    quads[index].material.uniforms.strength.value = strength;
+    dim(index, strength);
     sum();
   };
 }

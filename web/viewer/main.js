@@ -83,7 +83,7 @@ async function start(renderer) {
     waits = true;
   };
   const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
-  const slices = grids.length > 0 ? makeSlices(grids, request) : null;
+  const slices = grids.length > 0 ? makeSlices(grids, gltf.scene, request) : null;
   const film = (exposure) => {
     setFilm(renderer, state.light, exposure);
     request();

@@ -2,6 +2,8 @@
 // The panel: switches of what the file holds, the exposure, and the keys of the canvas. Texts of the
 // scene are set as text, never as HTML.
 
+import { largestStrength } from 'alpenglow/layers.js';
+
 const element = (id) => document.getElementById(id);
 
 function addSwitch(key, label, hint, { state, changed }) {
@@ -38,7 +40,7 @@ function addDimmers({ layers, dim, request }) {
     line.className = 'slider';
     const value = document.createElement('output');
     const slider = document.createElement('input');
-    Object.assign(slider, { type: 'range', min: 0, max: 200, step: 1, value: 100, id: `dimmer-${i}` });
+    Object.assign(slider, { type: 'range', min: 0, max: 100 * largestStrength, step: 1, value: 100, id: `dimmer-${i}` });
     line.htmlFor = slider.id; // an output could be labelled too
     value.textContent = '100 %';
     slider.addEventListener('input', () => {
@@ -89,8 +91,8 @@ function addSlices({ slices, state, show }) {
     place.setAttribute('aria-valuetext', value.textContent);
   };
   const start = () => {
-    const count = slices.grids[grid.value].size[axis.value];
-    Object.assign(place, { max: count - 1, value: Math.floor(count / 2) });
+    const [min, max] = slices.range(Number(grid.value), Number(axis.value));
+    Object.assign(place, { min, max, value: Math.round((min + max) / 2) });
     draw();
   };
   addSwitch('slices', 'Slice of light in space', 'mean radiance of each cell, with the light', { state, changed: () => {

@@ -33,10 +33,12 @@ function managerOf(urls) {
 
 /// A texture of half floats or floats whose first row is v = 0. EXRLoader hands out rows from the
 /// bottom; HDRLoader has them flipped by WebGL.
-async function loadFloats(uri, manager, renderer) {
+/// @param type of an EXR's numbers: half floats end at 65504
+async function loadFloats(uri, manager, renderer, type = THREE.HalfFloatType) {
   if (/\.ktx2$/i.test(uri)) return new KTX2Loader(manager).detectSupport(renderer).loadAsync(uri);
   const isHdr = /\.hdr$/i.test(uri);
-  const texture = await new (isHdr ? HDRLoader : EXRLoader)(manager).loadAsync(uri);
+  const loader = isHdr ? new HDRLoader(manager) : new EXRLoader(manager).setDataType(type);
+  const texture = await loader.loadAsync(uri);
   texture.flipY = !isHdr;
   texture.needsUpdate = true;
   return texture;
@@ -92,7 +94,7 @@ async function loadLayers({ layers, pages }, renderer) {
   const elements = [...document.querySelectorAll('script.layer')];
   const uris = elements.map((element, i) => `layer${i}.exr`);
   const manager = managerOf(new Map(uris.map((uri, i) => [uri, URL.createObjectURL(new Blob([bytesOf(elements[i])]))])));
-  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer)));
+  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer, THREE.FloatType)));
   return layers.map((name, i) => ({ name, pages: textures.slice(i * pages, (i + 1) * pages) }));
 }
 

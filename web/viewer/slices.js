@@ -41,6 +41,12 @@ function cornersOf(grid, axis, layer) {
   });
 }
 
+/// The first and the last layer across an axis that touch the scene.
+function rangeOf({ corner, cell, size }, axis, bounds) {
+  const layerAt = (place) => THREE.MathUtils.clamp(Math.floor((place - corner[axis]) / cell), 0, size[axis] - 1);
+  return [layerAt(bounds.min.getComponent(axis)), layerAt(bounds.max.getComponent(axis))];
+}
+
 function makeQuad() {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(12), 3));
@@ -51,9 +57,12 @@ function makeQuad() {
   return quad;
 }
 
-/// @param grids [{ cell, corner, size, fluence }], the finest first   @param changed called after `show`
-/// @returns { scene, grids, show(grid, axis, layer) }; show returns { place, brightest }, m and W/m²
-export function makeSlices(grids, changed) {
+/// @param grids [{ cell, corner, size, fluence }], the finest first   @param root the scene
+/// @param changed called after `show`
+/// @returns { scene, grids, range(grid, axis), show(grid, axis, layer) }; show returns { place, brightest },
+/// m and W/m²
+export function makeSlices(grids, root, changed) {
+  const bounds = new THREE.Box3().setFromObject(root);
   const quad = makeQuad();
   const scene = new THREE.Scene();
   scene.add(quad);
@@ -71,5 +80,5 @@ export function makeSlices(grids, changed) {
     changed();
     return { place: placeOf(grid, axis, layer), brightest };
   };
-  return { scene, grids, show };
+  return { scene, grids, show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
 }
