@@ -1,96 +1,11 @@
 // SPDX-License-Identifier: MIT
 // node web.mjs FOLDER ALPENGLOW: opens the pages that web.sh wrote, by file://, clicks their switches
 // and compares what they show with the pictures of alpenglow render.
-import { execFileSync } from 'node:child_process';
-import { copyFile, readFile, readdir, stat } from 'node:fs/promises';
+import { copyFile, readdir, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
-
-const [folder, alpenglow] = process.argv.slice(2);
-const side = 320;
-const exposure = 1.5;
-const allowed = 1; // mean of 255: edges and eight bits; without the blend it is 1.14
-const seen = 12; // least difference by which a switch must change the picture
-const faults = [];
-
-const program = { executablePath: process.env.CHROMIUM || '/usr/bin/chromium' };
-const browser = await chromium.launch({
-  ...program,
-  args: ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-});
-
-function check(name, good, text) {
-  console.log(`${good ? 'ok' : 'FAULT'} ${name}: ${text}`);
-  if (!good) faults.push(name);
-}
-
-/// A page whose console must stay silent, and which may ask for nothing but itself.
-async function open(name, options = {}, before = () => {}) {
-  const context = await browser.newContext({ viewport: { width: side, height: side }, ...options });
-  const page = await context.newPage();
-  await page.addInitScript(before);
-  const address = `file://${encodeURI(path.join(folder, name))}`;
-  page.on('pageerror', (error) => check(name, false, String(error)));
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type()) && !/GL Driver Message/.test(message.text())) check(name, false, message.text());
-  });
-  page.on('request', (request) => {
-    if (request.url() !== address && !/^(blob|data):/.test(request.url())) check(name, false, `requests ${request.url()}`);
-  });
-  await page.goto(address);
-  return page;
-}
-
-const ready = (page) => page.waitForSelector('html[data-ready]', { timeout: 60000 });
-
-/// The picture of the canvas, without the panel over it.
-async function shoot(page) {
-  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const style = await page.addStyleTag({ content: '#panel { visibility: hidden } #view { outline: none !important }' });
-  const png = await page.screenshot();
-  await style.evaluate((element) => element.remove());
-  return png;
-}
-
-/// Mean difference of two pictures, of 255, over the pixels that the second covers: the rest of it is
-/// grey 96.
-function difference(page, a, b) {
-  return page.evaluate(async (pictures) => {
-    const [one, two] = await Promise.all(
-      pictures.map(async (text) => {
-        const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-        const image = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: 'none' });
-        const canvas = new OffscreenCanvas(image.width, image.height);
-        const context = canvas.getContext('2d');
-        context.drawImage(image, 0, 0);
-        return context.getImageData(0, 0, image.width, image.height);
-      }),
-    );
-    if (one.width !== two.width || one.height !== two.height) return NaN;
-    let [sum, count] = [0, 0];
-    for (let i = 0; i < two.data.length; i += 4) {
-      if (two.data[i] === 96 && two.data[i + 1] === 96 && two.data[i + 2] === 96) continue;
-      for (let k = 0; k < 3; k++) sum += Math.abs(one.data[i + k] - two.data[i + k]) / 3;
-      count += 1;
-    }
-    return count > 5000 ? sum / count : NaN;
-  }, [a.toString('base64'), b.toString('base64')]);
-}
-
-async function render(scene, ...options) {
-  const file = path.join(folder, 'render.png');
-  const words = ['render', path.join(folder, scene), '-f', '-o', file, '--resolution', `${side}x${side}`, ...options];
-  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
-  return { png: await readFile(file), exposure: Number(/exposure +(\S+) EV/.exec(printed)?.[1]) };
-}
-
-async function compare(page, name, picture) {
-  const mean = await difference(page, await shoot(page), picture);
-  check(name, mean <= allowed, `${mean.toFixed(2)} of ${allowed}/255 from render`);
-}
-
-const label = (page, key) => page.locator(`#switches label:has(#switch-${key})`);
-const toggle = (page, key) => label(page, key).click();
+import { browser, check, compare, difference, exposure, faults, folder, label, open, program, ready, render, seen, shoot, toggle } from './web_pages.mjs';
+import { checkGrids, checkProbes, checkSlices } from './web_space.mjs';
 
 /// The page of a scene with light, its exposure, and its switches.
 async function checkLight(scene) {
@@ -137,6 +52,7 @@ async function checkLayers(scene, reference, pages) {
   await page.fill('#exposure', String(exposure));
   const options = ['--with', 'lightmap', '--exposure', String(exposure)];
   await compare(page, scene, (await render(`${reference}.glb`, ...options)).png);
+  check(`${scene} note`, (await page.textContent('#notes')) === '', 'there is none');
   const before = await shoot(page);
   const dimmer = page.getByLabel('lamp 0');
   await dimmer.focus();
@@ -167,138 +83,6 @@ async function checkBrightLayers() {
   await dimmer.focus(); // shoot hides the panel
   for (let i = 0; i < 100; i++) await page.keyboard.press('ArrowRight');
   await compare(page, 'bright, back at 100 %', png);
-  await page.context().close();
-}
-
-/// The place at which the camera of the box, looking along +z, sees a point; and the normal that faces it.
-const eye = [0.278, 0.273, -0.8];
-const focal = side / 2 / Math.tan(0.686047912 / 2);
-function seenAt(point) {
-  const [x, y, z] = point.map((p, k) => p - eye[k]);
-  const length = Math.hypot(x, y, z);
-  return { pixel: [side / 2 - (focal * x) / z, side / 2 - (focal * y) / z].map(Math.floor), normal: [-x / length, -y / length, -z / length] };
-}
-
-/// The value that the page should show of a white surface: the film curve, in eight bits of sRGB.
-function displayed(irradiance) {
-  const film = 1 - Math.exp((-(2 ** exposure) * irradiance) / Math.PI);
-  return 255 * (film <= 0.0031308 ? 12.92 * film : 1.055 * film ** (1 / 2.4) - 0.055);
-}
-
-function sample(point, normal) {
-  const words = ['sample', 'builtin:cornell', '--with', 'probes', '--probes', path.join(folder, 'cornell.probes.json'), '--at', '-', '-q'];
-  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${[...point, ...normal].join()}\n` });
-  return printed.trim().split('\n').at(-1).split(',').slice(6, 9).map(Number);
-}
-
-async function pixelOf(page, [x, y]) {
-  const one = (await shoot(page)).toString('base64');
-  return page.evaluate(async ([text, u, v]) => {
-    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
-    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
-    context.drawImage(image, 0, 0);
-    return [...context.getImageData(u, v, 1, 1).data];
-  }, [one, x, y]);
-}
-
-/// The sphere at two probes, where every look-up is the same, and dragged.
-async function checkProbes() {
-  const page = await open('probes.html');
-  await ready(page);
-  await page.fill('#exposure', String(exposure));
-  const { origin, spacing } = JSON.parse(await readFile(path.join(folder, 'cornell.probes.json'), 'utf8'));
-  for (const index of [1, 2]) {
-    await page.focus('#sphere-x');
-    if (index === 2) await page.keyboard.press('End');
-    const point = origin.map((o, k) => o + (k === 0 ? index : 1) * spacing[k]);
-    const { pixel, normal } = seenAt(point);
-    const wanted = sample(point, normal).map(displayed);
-    const got = await pixelOf(page, pixel);
-    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
-    check(`sphere at probe ${index}`, worst <= 2, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}`);
-  }
-  const before = await page.inputValue('#sphere-y');
-  const { pixel } = seenAt(origin.map((o, k) => o + (k === 0 ? 2 : 1) * spacing[k]));
-  await page.evaluate(() => document.querySelector('#controls').removeAttribute('open')); // it lies over the picture
-  await page.mouse.move(...pixel);
-  await page.mouse.down();
-  await page.mouse.move(pixel[0], pixel[1] - 40, { steps: 4 });
-  await page.mouse.up();
-  const moved = (await page.inputValue('#sphere-y')) - before;
-  const expected = (40 * (origin[2] + spacing[2] - eye[2] - 0.05)) / focal;
-  check('sphere dragged', Math.abs(moved - expected) < 0.02, `by ${moved.toFixed(3)} m, ${expected.toFixed(3)} m in the picture`);
-  await page.context().close();
-}
-
-/// Fluence of a cell, by the irradiance that alpenglow sample finds on both sides of a surface there:
-/// a surface reads the cell half a side above itself. 4 E: the mean of E over all normals is Φ / 4.
-function sampleFluence(centre, cell) {
-  const points = [1, -1].map((sign) => [...centre.map((c, k) => c - (k === 1 ? (sign * cell) / 2 : 0)), 0, sign, 0].join());
-  const words = ['sample', 'builtin:cornell', '--with', 'lpv', '--grid', '16', '--at', '-', '-q'];
-  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${points.join('\n')}\n` });
-  const [up, down] = printed.trim().split('\n').slice(-2).map((line) => line.split(',').slice(6, 9).map(Number));
-  return { fluence: up.map((e, k) => 2 * (e + down[k])), isCut: [...up, ...down].some((e) => e <= 0) };
-}
-
-/// A slice that was clicked on: its cells beside the file, and beside alpenglow sample.
-async function checkSlices() {
-  const page = await open('slices.html');
-  await ready(page);
-  await page.fill('#exposure', String(exposure));
-  const before = await shoot(page);
-  check('slice off', await page.isHidden('#slice'), 'its controls are hidden');
-  await toggle(page, 'slices');
-  await page.focus('#slice-axis');
-  await page.keyboard.type('z');
-  await page.focus('#slice-place');
-  await page.keyboard.press('Home');
-  for (let i = 0; i < 3; i++) await page.keyboard.press('ArrowRight');
-  const change = await difference(page, await shoot(page), before);
-  check('slice', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
-  const [grid] = JSON.parse(await readFile(path.join(folder, 'cornell.lpv.json'), 'utf8')).grids;
-  const text = await page.textContent('#slice-value');
-  const layer = Math.floor(-grid.corner[2] / grid.cell) + 3; // the scene begins at z = 0
-  const place = grid.corner[2] + (layer + 0.5) * grid.cell;
-  check('slice place', Math.abs(parseFloat(text) - place) < 1e-3, `${text}, layer ${layer} at ${place.toFixed(4)} m`);
-  await page.locator('#controls > summary').click();
-  for (const [x, y] of [[4, 11], [8, 11], [12, 7]]) {
-    const cell = [x, y, layer];
-    const centre = cell.map((c, k) => grid.corner[k] + (c + 0.5) * grid.cell);
-    const first = 3 * (x + 16 * (y + 16 * layer));
-    const written = grid.fluence.slice(first, first + 3);
-    const { fluence, isCut } = sampleFluence(centre, grid.cell);
-    const wanted = fluence.map((f) => displayed(f / 4)); // radiance Φ / 4π is that of E = Φ / 4
-    const got = await pixelOf(page, seenAt(centre).pixel);
-    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
-    const apart = Math.max(...written.map((w, k) => Math.abs(w / fluence[k] - 1)));
-    check(`slice at ${cell}`, !isCut && worst <= 1.5 && apart < 1e-3, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}; file within ${apart.toExponential(1)}`);
-  }
-  await page.locator('#controls > summary').click();
-  await toggle(page, 'light');
-  const dark = await shoot(page);
-  await toggle(page, 'slices');
-  check('slice without light', (await difference(page, await shoot(page), dark)) < 0.01, 'is not drawn');
-  await page.context().close();
-}
-
-/// Several grids: one is chosen, and its slices have its own cells.
-async function checkGrids() {
-  const page = await open('grids.html', { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
-  await ready(page);
-  await label(page, 'slices').tap();
-  const { grids } = JSON.parse(await readFile(path.join(folder, 'grids.lpv.json'), 'utf8'));
-  const labels = await page.locator('#slice-grid option').allTextContents();
-  check('grids', labels.length === 2 && labels[1].includes(String(Number(grids[1].cell.toPrecision(3)))), labels.join(', '));
-  const before = await shoot(page);
-  await page.selectOption('#slice-grid', '1');
-  const change = await difference(page, await shoot(page), before);
-  const first = Math.floor(-grids[1].corner[0] / grids[1].cell); // the scene reaches from 0 to 0.556 m
-  const last = Math.floor((0.556 - grids[1].corner[0]) / grids[1].cell);
-  const place = grids[1].corner[0] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
-  const text = await page.textContent('#slice-value');
-  check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
-  const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);
-  check('grids, phone', !wide, 'the panel fits');
   await page.context().close();
 }
 
@@ -362,6 +146,11 @@ async function checkMessages() {
   const licence = await hostile.textContent('#licence');
   check('licence', /MIT License[^]*three\.js authors[^]*NONINFRINGEMENT/.test(licence), `${licence.length} characters`);
   await hostile.context().close();
+  const other = await open('other.html');
+  await ready(other);
+  const note = await other.textContent('#notes');
+  check('lights of another bake', /hold light of another bake/.test(note), note);
+  await other.context().close();
 }
 
 for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);

@@ -40,6 +40,8 @@ layers layers --lightmap-as extras --lightmap-format exr
 layers pages --lightmap-as extras --lightmap-format exr --texels-per-metre 90
 layers twin --lightmap-as extras --lightmap-format exr --texels-per-metre 90
 layers moz8 --lightmap-as moz --texels-per-metre 90
+"$alpenglow" bake builtin:cornell --size 128 -q -o other.glb --maps light --maps-dir other --layers
+"$alpenglow" web layers.glb -q -o other.html --maps-dir other
 layers bright --lightmap-as extras --lightmap-format exr --lamp 0.2,0.3,0.3,4e5,1,0.8,0.5
 "$alpenglow" probes builtin:cornell -o cornell.probes.json --spacing 0.2 -q
 "$alpenglow" web moz.glb -q -o probes.html --probes cornell.probes.json

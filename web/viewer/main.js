@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { blendScene } from 'alpenglow/three-blend.js';
 import { makeCamera } from 'alpenglow/camera.js';
-import { meter, setFilm } from 'alpenglow/film.js';
+import { measureChange, meter, setFilm } from 'alpenglow/film.js';
 import { findMaps, makeSwitch, replaceMaterials } from 'alpenglow/maps.js';
 import { buildPanel } from 'alpenglow/panel.js';
 import { makeLayers } from 'alpenglow/layers.js';
@@ -53,6 +53,24 @@ function resize(renderer, camera) {
   camera.updateProjectionMatrix();
 }
 
+/// Dimmers for the lights, and how far the sum of their maps is from the light of the file.
+function addLayers(layers, materials, renderer, scene, camera) {
+  if (layers.length === 0) return { dim: null, apart: 0 };
+  let dim = null;
+  const apart = measureChange(renderer, scene, camera, () => (dim = makeLayers(layers, materials, renderer)));
+  return { dim, apart };
+}
+
+/// Draws the scene, and overlays in it: its depth hides those behind it.
+function drawAll(renderer, camera, scene, overlays) {
+  renderer.render(scene, camera);
+  renderer.autoClear = false;
+  for (const overlay of overlays) {
+    if (overlay?.scene.visible) renderer.render(overlay.scene, camera);
+  }
+  renderer.autoClear = true;
+}
+
 async function start(renderer) {
   const { gltf, name, layers, probes, grids } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
@@ -61,7 +79,7 @@ async function start(renderer) {
   removeLamps(gltf.scene, bake);
   const view = makeCamera(gltf, canvas);
   const materials = replaceMaterials(gltf.scene);
-  const dim = layers.length > 0 ? makeLayers(layers, materials, renderer) : null;
+  const { dim, apart } = addLayers(layers, materials, renderer, scene, view.camera);
   blendScene(gltf.scene, THREE.ShaderChunk);
   const found = findMaps(materials, bake);
   const apply = makeSwitch(materials, found);
@@ -71,12 +89,7 @@ async function start(renderer) {
   let waits = false;
   const draw = () => {
     waits = false;
-    renderer.render(scene, view.camera);
-    renderer.autoClear = false; // the depth of the scene hides what lies behind it
-    for (const overlay of [sphere, slices]) {
-      if (overlay?.scene.visible) renderer.render(overlay.scene, view.camera);
-    }
-    renderer.autoClear = true;
+    drawAll(renderer, view.camera, scene, [sphere, slices]);
   };
   const request = () => {
     if (!waits) requestAnimationFrame(draw);
@@ -103,7 +116,7 @@ async function start(renderer) {
     request();
   });
   view.controls.addEventListener('change', request);
-  buildPanel({ name, found, layers, dim, sphere, slices, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  buildPanel({ name, found, layers, apart, dim, sphere, slices, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
   draw();
   document.documentElement.dataset.ready = 'true';

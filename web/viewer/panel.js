@@ -105,7 +105,11 @@ function addSlices({ slices, state, show }) {
   start();
 }
 
-function notesOf({ found }) {
+/// Eight bits of MOZ_lightmap differ from the sum of the lights by some 5 %, another bake by far more.
+const allowedApart = 0.3;
+
+function notesOf({ found, apart }) {
+  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${Math.round(100 * apart)} %.`;
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
 
