@@ -153,6 +153,17 @@ async function checkMessages() {
   await other.context().close();
 }
 
+/// The link of a report leads to the page.
+async function checkReport() {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(`file://${path.join(folder, 'report.html')}`);
+  await page.getByRole('link', { name: 'See this scene in the browser' }).click();
+  const name = await ready(page).then(() => page.textContent('#name'));
+  check('report', name === 'small.glb', `its link leads to ${name}`);
+  await context.close();
+}
+
 for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
 await checkLayers('layers', 'layers', 1);
 await checkLayers('pages', 'pages', 2);
@@ -164,6 +175,7 @@ await checkProbes();
 await checkCamera();
 await checkPhone();
 await checkMessages();
+await checkReport();
 const { size } = await stat(path.join(folder, 'ao.gltf.html'));
 check('size', size < 4e6, `${(size / 1e6).toFixed(1)} of 4 MB`);
 await browser.close();

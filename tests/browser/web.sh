@@ -49,6 +49,8 @@ layers bright --lightmap-as extras --lightmap-format exr --lamp 0.2,0.3,0.3,4e5,
 "$alpenglow" lpv builtin:cornell --grid 8 --cascades 2 --frames 1 --volume grids.lpv.json -q
 "$alpenglow" web moz.glb -q -o slices.html --volume cornell.lpv.json
 "$alpenglow" web moz.glb -q -o grids.html --volume grids.lpv.json
+"$alpenglow" bake builtin:cornell --size 16 -q -o small.glb --report report.html
+"$alpenglow" web small.glb -q -o 'the page #1 & 100 %.html' --report report.html
 cp ao.gltf '<img src=x onerror=alert(1)>.gltf'
 "$alpenglow" web '<img src=x onerror=alert(1)>.gltf' -q -o hostile.html
 node "$here/web.mjs" "$folder" "$alpenglow"

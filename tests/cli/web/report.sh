@@ -21,7 +21,6 @@ echo '== faults'
 echo '<html>mine</html>' >mine.html
 mkdir folder
 cp report.html folder
-ln -s folder/report.html link.html
 fault() { try web baked.glb -o fault.html "$@"; }
 fault --report missing.html
 fault --report mine.html
