@@ -84,6 +84,21 @@ def viewer(_, out):
     write_png(out, [b"".join(rows) for rows in zip(*cells)])
 
 
+def web_page(command, out):
+    """The page of alpenglow web of the atrium under sun and sky, in Chromium."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([command, "bake", "builtin:atrium", "-o", "atrium.glb", "-q", "--maps",
+                        "light,ao", "--size", "1024", *SUN, "--layers", "--maps-dir", "maps",
+                        "--lightmap-as", "extras"], cwd=folder, check=True)
+        subprocess.run([command, "lpv", "builtin:atrium", "-q", "--frames", "1", *SUN[2:],
+                        "--volume", "atrium.lpv.json"], cwd=folder, check=True)
+        subprocess.run([command, "web", "atrium.glb", "atrium.html", "-q", "--maps-dir", "maps",
+                        "--volume", "atrium.lpv.json"], cwd=folder, check=True)
+        subprocess.run(["node", os.path.join(HERE, "../tests/browser/shoot.mjs"),
+                        folder + "/atrium.html", out, "1200", "675", "0.625"], check=True)
+    write_png(out, read_png(out))  # a smaller file
+
+
 def script(name, *arguments):
     return lambda command, out: subprocess.run(
         [sys.executable, os.path.join(HERE, name), command, out, *arguments], check=True)
@@ -100,6 +115,7 @@ PICTURES = {  # name: how it is made, and whether it is quick
     **{f"view-{scene}": (script("make_views.py", scene), False)
        for scene in ("cornell", "teapot-room", "terrain", "zdm2")},
     "viewer": (viewer, True),
+    "web_page": (web_page, False),
 }
 
 

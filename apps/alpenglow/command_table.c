@@ -89,7 +89,7 @@ static const command_entry commands[COMMAND_COUNT] = {
                        "writes what one bake with --adaptive off would have written, with the same "
                        "bits. OUT is its asset, or its folder of maps; without OUT, the names of "
                        "the bake. Missing shards are listed for sbatch --array."},
-    [COMMAND_WEB] = {"web", "BAKED [-o] OUT.html [--maps-dir DIR] [--probes FILE]",
+    [COMMAND_WEB] = {"web", "BAKED [-o] OUT.html [--maps-dir DIR] [--probes FILE] [--volume FILE]",
                      "write a baked scene as a page for browsers", 1,
                      "Writes one HTML file that shows BAKED, a .glb or .gltf, by three.js: the "
                      "camera orbits, occlusion and light can be switched, and the exposure be "

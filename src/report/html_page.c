@@ -72,6 +72,8 @@ static void put_head(alpi_page *page, const report_job *job)
     if (job->options.command != NULL) {
         put_command(page, job->options.command);
     }
+    // alpenglow web --report puts a link into this element.
+    alpi_page_put(page, "<p id=\"web\"></p>\n");
     alpi_page_put(page, "</header>\n<main>\n");
 }
 

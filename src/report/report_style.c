@@ -24,7 +24,9 @@ static const char words_style[] =
     "code{font:.875rem/1.5 ui-monospace,SFMono-Regular,Menlo,\"DejaVu Sans Mono\",monospace}\n"
     ".command{display:block;margin:0;padding:.6rem .9rem;background:var(--plate);"
     "border-radius:6px;overflow-wrap:anywhere}\n"
-    ".command span{display:inline-block;max-width:100%}\n";
+    ".command span{display:inline-block;max-width:100%}\n"
+    "#web{margin:.75rem 0 0}#web:empty{display:none}\n"
+    "a{color:var(--rose)}\n";
 
 static const char plates_style[] =
     ".tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(8.25rem,1fr));"

@@ -29,11 +29,28 @@ page units.glb --maps light --samples 64 --lightmap-as extras --units irradiance
 page radiance.glb --maps light --samples 64 --lightmap-as extras --units radiance
 page blend.glb --maps light --samples 64 --lightmap-as moz --atlas blend
 page ao.gltf --maps ao
-"$alpenglow" bake builtin:cornell --size 128 -q -o layers.glb --samples 64 --lamp 0.3,0.5,0.2,1,0.2,0.4,1 \
-    --maps-dir maps --layers --lightmap-as extras --lightmap-format exr
-"$alpenglow" web layers.glb -q -o layers.glb.html --maps-dir maps
+layers() { # name, options of the bake
+    name=$1
+    shift
+    "$alpenglow" bake builtin:cornell --size 128 -q -o "$name.glb" --samples 64 \
+        --lamp 0.3,0.5,0.2,1,0.2,0.4,1 --maps-dir "$name" --layers "$@"
+    "$alpenglow" web "$name.glb" -q -o "$name.glb.html" --maps-dir "$name"
+}
+layers layers --lightmap-as extras --lightmap-format exr
+layers pages --lightmap-as extras --lightmap-format exr --texels-per-metre 90
+layers twin --lightmap-as extras --lightmap-format exr --texels-per-metre 90
+layers moz8 --lightmap-as moz --texels-per-metre 90
+"$alpenglow" bake builtin:cornell --size 128 -q -o other.glb --maps light --maps-dir other --layers
+"$alpenglow" web layers.glb -q -o other.html --maps-dir other
+layers bright --lightmap-as extras --lightmap-format exr --lamp 0.2,0.3,0.3,4e5,1,0.8,0.5
 "$alpenglow" probes builtin:cornell -o cornell.probes.json --spacing 0.2 -q
 "$alpenglow" web moz.glb -q -o probes.html --probes cornell.probes.json
+"$alpenglow" lpv builtin:cornell --grid 16 --frames 1 --volume cornell.lpv.json -q
+"$alpenglow" lpv builtin:cornell --grid 8 --cascades 2 --frames 1 --volume grids.lpv.json -q
+"$alpenglow" web moz.glb -q -o slices.html --volume cornell.lpv.json
+"$alpenglow" web moz.glb -q -o grids.html --volume grids.lpv.json
+"$alpenglow" bake builtin:cornell --size 16 -q -o small.glb --report report.html
+"$alpenglow" web small.glb -q -o 'the page #1 & 100 %.html' --report report.html
 cp ao.gltf '<img src=x onerror=alert(1)>.gltf'
 "$alpenglow" web '<img src=x onerror=alert(1)>.gltf' -q -o hostile.html
 node "$here/web.mjs" "$folder" "$alpenglow"

@@ -15,9 +15,8 @@ export function setFilm(renderer, lit, exposure) {
 
 const side = 128;
 
-/// The exposure value that makes the picture's mean luminance 18 % grey: the geometric mean without
-/// black pixels and the darkest and brightest 5 %. 0 for a black picture.
-export function meter(renderer, scene, camera) {
+/// The radiance of a picture of the scene, [128][128][4], without the exposure.
+function readRadiance(renderer, scene, camera) {
   const target = new THREE.WebGLRenderTarget(side, side, { type: THREE.FloatType });
   const pixels = new Float32Array(4 * side * side);
   const clear = renderer.getClearColor(new THREE.Color());
@@ -29,6 +28,27 @@ export function meter(renderer, scene, camera) {
   renderer.setRenderTarget(null);
   renderer.setClearColor(clear, 1);
   target.dispose();
+  return pixels;
+}
+
+/// Mean difference of pictures of the scene before and after a change, over the mean of the first.
+export function measureChange(renderer, scene, camera, change) {
+  const before = readRadiance(renderer, scene, camera);
+  change();
+  const after = readRadiance(renderer, scene, camera);
+  let [apart, total] = [0, 0];
+  for (let i = 0; i < before.length; i++) {
+    if (i % 4 === 3) continue;
+    apart += Math.abs(after[i] - before[i]);
+    total += before[i];
+  }
+  return total > 0 ? apart / total : 0;
+}
+
+/// The exposure value that makes the picture's mean luminance 18 % grey: the geometric mean without
+/// black pixels and the darkest and brightest 5 %. 0 for a black picture.
+export function meter(renderer, scene, camera) {
+  const pixels = readRadiance(renderer, scene, camera);
   const values = [];
   for (let i = 0; i < pixels.length; i += 4) {
     const luminance = 0.2126 * pixels[i] + 0.7152 * pixels[i + 1] + 0.0722 * pixels[i + 2];

@@ -3,12 +3,13 @@
 import * as THREE from 'three';
 import { blendScene } from 'alpenglow/three-blend.js';
 import { makeCamera } from 'alpenglow/camera.js';
-import { meter, setFilm } from 'alpenglow/film.js';
+import { measureChange, meter, setFilm } from 'alpenglow/film.js';
 import { findMaps, makeSwitch, replaceMaterials } from 'alpenglow/maps.js';
 import { buildPanel } from 'alpenglow/panel.js';
 import { makeLayers } from 'alpenglow/layers.js';
 import { makeSphere } from 'alpenglow/probes.js';
 import { loadScene } from 'alpenglow/scene.js';
+import { makeSlices } from 'alpenglow/slices.js';
 
 const canvas = document.getElementById('view');
 const message = document.getElementById('message');
@@ -52,35 +53,50 @@ function resize(renderer, camera) {
   camera.updateProjectionMatrix();
 }
 
+/// Dimmers for the lights, and how far the sum of their maps is from the light of the file.
+function addLayers(layers, materials, renderer, scene, camera) {
+  if (layers.length === 0) return { dim: null, apart: 0 };
+  let dim = null;
+  const apart = measureChange(renderer, scene, camera, () => (dim = makeLayers(layers, materials, renderer)));
+  return { dim, apart };
+}
+
+/// Draws the scene, and overlays in it: its depth hides those behind it.
+function drawAll(renderer, camera, scene, overlays) {
+  renderer.render(scene, camera);
+  renderer.autoClear = false;
+  for (const overlay of overlays) {
+    if (overlay?.scene.visible) renderer.render(overlay.scene, camera);
+  }
+  renderer.autoClear = true;
+}
+
 async function start(renderer) {
-  const { gltf, name, layers, probes } = await loadScene(renderer);
+  const { gltf, name, layers, probes, grids } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
   removeLamps(gltf.scene, bake);
   const view = makeCamera(gltf, canvas);
   const materials = replaceMaterials(gltf.scene);
-  const dim = layers.length > 0 ? makeLayers(layers, materials, renderer) : null;
+  const { dim, apart } = addLayers(layers, materials, renderer, scene, view.camera);
   blendScene(gltf.scene, THREE.ShaderChunk);
   const found = findMaps(materials, bake);
   const apply = makeSwitch(materials, found);
   const plain = plainLight(found);
   scene.add(plain);
-  const state = { light: found.light !== null, occlusion: found.occlusion && found.light === null, colours: true };
+  const state = { light: found.light !== null, occlusion: found.occlusion && found.light === null, colours: true, slices: false };
   let waits = false;
   const draw = () => {
     waits = false;
-    renderer.render(scene, view.camera);
-    if (sphere === null || !sphere.scene.visible) return;
-    renderer.autoClear = false;
-    renderer.render(sphere.scene, view.camera);
-    renderer.autoClear = true;
+    drawAll(renderer, view.camera, scene, [sphere, slices]);
   };
   const request = () => {
     if (!waits) requestAnimationFrame(draw);
     waits = true;
   };
   const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
+  const slices = grids.length > 0 ? makeSlices(grids, gltf.scene, request) : null;
   const film = (exposure) => {
     setFilm(renderer, state.light, exposure);
     request();
@@ -88,7 +104,9 @@ async function start(renderer) {
   const show = () => {
     apply(state);
     plain.visible = !state.light;
-    if (sphere !== null) sphere.scene.visible = state.light || found.light === null; // even light is no probe's
+    const lit = state.light || found.light === null; // even light is not that of probes or slices
+    if (sphere !== null) sphere.scene.visible = lit;
+    if (slices !== null) slices.scene.visible = lit && state.slices;
     request();
   };
   show();
@@ -98,7 +116,7 @@ async function start(renderer) {
     request();
   });
   view.controls.addEventListener('change', request);
-  buildPanel({ name, found, layers, dim, sphere, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
+  buildPanel({ name, found, layers, apart, dim, sphere, slices, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
   draw();
   document.documentElement.dataset.ready = 'true';

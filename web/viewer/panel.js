@@ -2,6 +2,8 @@
 // The panel: switches of what the file holds, the exposure, and the keys of the canvas. Texts of the
 // scene are set as text, never as HTML.
 
+import { largestStrength } from 'alpenglow/layers.js';
+
 const element = (id) => document.getElementById(id);
 
 function addSwitch(key, label, hint, { state, changed }) {
@@ -38,7 +40,7 @@ function addDimmers({ layers, dim, request }) {
     line.className = 'slider';
     const value = document.createElement('output');
     const slider = document.createElement('input');
-    Object.assign(slider, { type: 'range', min: 0, max: 200, step: 1, value: 100, id: `dimmer-${i}` });
+    Object.assign(slider, { type: 'range', min: 0, max: 100 * largestStrength, step: 1, value: 100, id: `dimmer-${i}` });
     line.htmlFor = slider.id; // an output could be labelled too
     value.textContent = '100 %';
     slider.addEventListener('input', () => {
@@ -75,7 +77,39 @@ function addPlaces({ sphere }) {
   follow();
 }
 
-function notesOf({ found }) {
+const metres = (value) => `${Number(value.toPrecision(3))} m`;
+
+/// The switch of the slice, its grid if there are several, its axis, and its place.
+function addSlices({ slices, state, show }) {
+  if (slices === null) return;
+  const [grid, axis, place, value] = ['slice-grid', 'slice-axis', 'slice-place', 'slice-value'].map(element);
+  slices.grids.forEach(({ cell }, i) => grid.add(new Option(`cells of ${metres(cell)}`, i)));
+  element('slice-grid-line').hidden = slices.grids.length < 2;
+  const draw = () => {
+    const found = slices.show(Number(grid.value), Number(axis.value), Number(place.value));
+    value.textContent = `${metres(found.place)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
+    place.setAttribute('aria-valuetext', value.textContent);
+  };
+  const start = () => {
+    const [min, max] = slices.range(Number(grid.value), Number(axis.value));
+    Object.assign(place, { min, max, value: Math.round((min + max) / 2) });
+    draw();
+  };
+  addSwitch('slices', 'Slice of light in space', 'mean radiance of each cell, with the light', { state, changed: () => {
+    element('slice').hidden = !state.slices;
+    show();
+  } });
+  grid.addEventListener('change', start);
+  axis.addEventListener('change', start);
+  place.addEventListener('input', draw);
+  start();
+}
+
+/// Eight bits of MOZ_lightmap differ from the sum of the lights by some 5 %, another bake by far more.
+const allowedApart = 0.3;
+
+function notesOf({ found, apart }) {
+  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${Math.round(100 * apart)} %.`;
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
 
@@ -127,6 +161,7 @@ export function buildPanel(page) {
   addSwitches(page, changed);
   addDimmers(page);
   addPlaces(page);
+  addSlices(page);
   slider.addEventListener('input', () => expose(Number(slider.value)));
   element('auto').addEventListener('click', automatic);
   element('reset').addEventListener('click', () => {

@@ -33,13 +33,21 @@ function managerOf(urls) {
 
 /// A texture of half floats or floats whose first row is v = 0. EXRLoader hands out rows from the
 /// bottom; HDRLoader has them flipped by WebGL.
-async function loadFloats(uri, manager, renderer) {
+/// @param type of an EXR's numbers: half floats end at 65504
+async function loadFloats(uri, manager, renderer, type = THREE.HalfFloatType) {
   if (/\.ktx2$/i.test(uri)) return new KTX2Loader(manager).detectSupport(renderer).loadAsync(uri);
   const isHdr = /\.hdr$/i.test(uri);
-  const texture = await new (isHdr ? HDRLoader : EXRLoader)(manager).loadAsync(uri);
+  const loader = isHdr ? new HDRLoader(manager) : new EXRLoader(manager).setDataType(type);
+  const texture = await loader.loadAsync(uri);
   texture.flipY = !isHdr;
   texture.needsUpdate = true;
   return texture;
+}
+
+/// The page of the atlas that an image is, by its name: "light 2" in a .glb, scene.light.2.png beside a
+/// .gltf. The first page of a file has no number.
+function pageOf(name) {
+  return Number(/^light (\d+)$/.exec(name)?.[1] ?? /\.light\.(\d+)\.\w+$/.exec(name)?.[1] ?? 0);
 }
 
 /// Light maps that three.js does not read itself: MOZ_lightmap, and the file of extras.lightmap.
@@ -48,6 +56,12 @@ class LightMapPlugin {
     this.name = 'MOZ_lightmap';
     this.parser = parser;
     this.floats = floats;
+  }
+
+  imageName(texture) {
+    const { json } = this.parser;
+    const image = json.images?.[json.textures[texture].source];
+    return image?.name ?? image?.uri ?? '';
   }
 
   async extendMaterialParams(index, params) {
@@ -60,6 +74,7 @@ class LightMapPlugin {
       moz !== undefined ? await this.parser.getDependency('texture', moz.index) : await this.floats(extra.uri);
     if (!texture) return;
     const map = texture.clone();
+    map.userData.page = pageOf(moz !== undefined ? this.imageName(moz.index) : extra.uri);
     map.channel = found.texCoord ?? 0;
     map.colorSpace = THREE.LinearSRGBColorSpace;
     if (moz === undefined) map.minFilter = map.magFilter = THREE.LinearFilter;
@@ -74,13 +89,19 @@ class LightMapPlugin {
   }
 }
 
-/// The maps of single lights: [{ name, texture }].
-async function loadLayers(names, renderer) {
-  const elements = document.querySelectorAll('script.layer');
-  const uris = names.map((name, i) => `layer${i}.exr`);
+/// The maps of single lights: [{ name, pages }], a texture for each page of the atlas.
+async function loadLayers({ layers, pages }, renderer) {
+  const elements = [...document.querySelectorAll('script.layer')];
+  const uris = elements.map((element, i) => `layer${i}.exr`);
   const manager = managerOf(new Map(uris.map((uri, i) => [uri, URL.createObjectURL(new Blob([bytesOf(elements[i])]))])));
-  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer)));
-  return names.map((name, i) => ({ name, texture: textures[i] }));
+  const textures = await Promise.all(uris.map((uri) => loadFloats(uri, manager, renderer, THREE.FloatType)));
+  return layers.map((name, i) => ({ name, pages: textures.slice(i * pages, (i + 1) * pages) }));
+}
+
+/// The grids of the volume: [{ cell, corner, size, fluence }].
+function loadGrids(volume) {
+  const elements = document.querySelectorAll('script.volume');
+  return (volume ?? []).map((grid, i) => ({ ...grid, fluence: new Float32Array(bytesOf(elements[i]).buffer) }));
 }
 
 /// The probes, { info, texture }, or null.
@@ -90,7 +111,7 @@ async function loadProbes(info, renderer) {
   return { info: { scale: 1, ...info }, texture: await new KTX2Loader().detectSupport(renderer).loadAsync(url) };
 }
 
-/// @returns { gltf, name, layers, probes }
+/// @returns { gltf, name, layers, probes, grids }
 export async function loadScene(renderer) {
   const about = JSON.parse(document.getElementById('scene').textContent);
   const manager = managerOf(fileUrls(about.files));
@@ -103,5 +124,6 @@ export async function loadScene(renderer) {
   loader.setMeshoptDecoder(MeshoptDecoder);
   loader.register((parser) => new LightMapPlugin(parser, floats));
   const gltf = await loader.parseAsync(bytesOf(document.querySelector('script.asset')).buffer, '');
-  return { gltf, name: about.name, layers: await loadLayers(about.layers, renderer), probes: await loadProbes(about.probes, renderer) };
+  const [layers, probes] = await Promise.all([loadLayers(about, renderer), loadProbes(about.probes, renderer)]);
+  return { gltf, name: about.name, layers, probes, grids: loadGrids(about.volume) };
 }

@@ -4,6 +4,7 @@
 #include "output.h"
 #include "printing/messages.h"
 #include "programs.h"
+#include "web/web_report.h"
 #include "web/web_scene.h"
 
 #include <alpenglow/alpenglow.h>
@@ -33,7 +34,8 @@ static int check_names(const command_line *a)
                            "bake SCENE -o baked.glb",
                            input);
     }
-    return output_check(output, a->values[OPTION_FORCE].given);
+    const int code = web_report_check(a);
+    return code == EXIT_DONE ? output_check(output, a->values[OPTION_FORCE].given) : code;
 }
 
 /// The page without a scene, which the build assembled. NULL after a message. @return malloc'ed
@@ -57,7 +59,8 @@ static char *read_page(void)
 }
 
 /// Loads the scene as all commands do, so that faults have the same messages.
-static int check_scene(const command_line *a, message_log *messages)
+/// @param out its bounds
+static int check_scene(const command_line *a, message_log *messages, web_scene *out)
 {
     alp_context *context = NULL;
     alp_scene *scene = NULL;
@@ -70,6 +73,11 @@ static int check_scene(const command_line *a, message_log *messages)
     const int code = alp_scene_load(context, a->operands[0], &scene) == ALP_OK
                          ? EXIT_DONE
                          : failure(alp_context_message(context));
+    for (int k = 0; k < 3 && code == EXIT_DONE; k++) {
+        const alp_scene_info info = alp_scene_get_info(scene);
+        out->bounds[0][k] = (double)info.bounds_min[k];
+        out->bounds[1][k] = (double)info.bounds_max[k];
+    }
     alp_scene_destroy(scene);
     alp_context_destroy(context);
     return code;
@@ -101,19 +109,31 @@ static int write_page(const char *page, const web_scene *scene, const command_li
     return code;
 }
 
+/// Reads all that the page holds.
+static int read_scene(const command_line *a, message_log *messages, web_scene *scene)
+{
+    const option_value *values = a->values;
+    int code = web_scene_read(scene, a->operands[0], messages);
+    if (code == EXIT_DONE && values[OPTION_MAPS_FOLDER].given) {
+        code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text);
+    }
+    if (code == EXIT_DONE && values[OPTION_PROBES].given) {
+        code = web_scene_read_probes(scene, values[OPTION_PROBES].text, messages);
+    }
+    if (code == EXIT_DONE && values[OPTION_VOLUME].given) {
+        code = web_scene_read_volume(scene, values[OPTION_VOLUME].text, messages);
+    }
+    return code;
+}
+
 static int run(const command_line *a, message_log *messages)
 {
     char *page = read_page();
-    int code = page != NULL ? check_scene(a, messages) : EXIT_FAILED;
     web_scene scene = {0};
-    code = code == EXIT_DONE ? web_scene_read(&scene, a->operands[0], messages) : code;
-    if (code == EXIT_DONE && a->values[OPTION_MAPS_FOLDER].given) {
-        code = web_scene_read_layers(&scene, a->values[OPTION_MAPS_FOLDER].text);
-    }
-    if (code == EXIT_DONE && a->values[OPTION_PROBES].given) {
-        code = web_scene_read_probes(&scene, a->values[OPTION_PROBES].text);
-    }
+    int code = page != NULL ? check_scene(a, messages, &scene) : EXIT_FAILED;
+    code = code == EXIT_DONE ? read_scene(a, messages, &scene) : code;
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
+    code = code == EXIT_DONE ? web_report_write(a) : code;
     web_scene_release(&scene);
     free(page);
     return code;

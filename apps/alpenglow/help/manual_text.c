@@ -94,7 +94,8 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
          .files = {{"SCENE", "Scene to light, or a built-in scene."},
                    {"DIR/slice_x.png, DIR/slice_y.png, DIR/slice_z.png",
                     "Fluence in the middle layers of the grid (--pictures)."},
-                   {"DIR/view.png", "A view lit by the volume, beside the reference."}},
+                   {"DIR/view.png", "A view lit by the volume, beside the reference."},
+                   {"FILE.lpv.json", "Fluence in all cells (--volume)."}},
          .examples = {{"Measure a frame of light in a hall under a turning sun:",
                        "alpenglow lpv builtin:atrium --sun 30,60,80000"},
                       {"Draw the light in three grids inside each other:",
@@ -124,7 +125,9 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
          .files = {{"BAKED.glb, BAKED.gltf", "The scene, and the files that it names."},
                    {"DIR/irradiance.NAME.exr", "The map of a single light (--maps-dir)."},
                    {"FILE.probes.json, FILE.probes.ktx2", "Probes (--probes)."},
-                   {"OUT.html", "The page, with all of that inside."}},
+                   {"FILE.lpv.json", "Light in space (--volume)."},
+                   {"OUT.html", "The page, with all of that inside."},
+                   {"REPORT.html", "The report that gets a link to the page (--report)."}},
          .examples = {{"Write a baked scene as a page:", "alpenglow web scene.glb -o scene.html"}}},
     [COMMAND_BENCH] =
         {.failed = "The measuring program, alpenglow-bench, is not installed, or a scene could not "

@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "lpv/lpv_pictures.h"
 #include "lpv/lpv_report.h"
+#include "lpv/lpv_volume.h"
 #include "output.h"
 #include "setup/cameras.h"
 #include "setup/lighting.h"
@@ -58,7 +59,8 @@ static int check_options(const command_line *a, alp_render_options *view)
     code = code == EXIT_DONE ? lpv_run_check(a) : code;
     code = code == EXIT_DONE ? resolution_read(a, &view->width, &view->height) : code;
     code = code == EXIT_DONE ? camera_read(a, (const double[3]){0.0, 0.0, 0.0}, view) : code;
-    return code == EXIT_DONE ? check_json(a) : code;
+    code = code == EXIT_DONE ? check_json(a) : code;
+    return code == EXIT_DONE ? lpv_volume_check(a) : code;
 }
 
 // --- frames --------------------------------------------------------------------------------------
@@ -137,6 +139,7 @@ static int run_frames(lpv_run *run, const command_line *a, alp_render_options *v
         lpv_record_sort(&record);
         code = lpv_pictures_write(run, a, view);
     }
+    code = code == EXIT_DONE ? lpv_volume_write(run, a) : code;
     code = code == EXIT_DONE ? write_json(run, a, &record) : code;
     if (code == EXIT_DONE && prints_table(a)) {
         lpv_print(run, &record);

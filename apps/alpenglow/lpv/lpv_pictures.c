@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "lpv/lpv_pictures.h"
 
+#include "lpv/lpv_volume.h"
 #include "output.h"
 #include "views.h"
 
-#include <alpenglow/shared_constants.h>
-
-#include <math.h>
 #include <stdlib.h>
 
 enum { AXES = 3, CHANNELS = 4, SLICE_SIDE = 512, NAME_SIZE = 32 };
@@ -71,19 +69,6 @@ static alp_result save(const command_line *a, const alp_image *linear, const dou
 
 // --- slices --------------------------------------------------------------------------------------
 
-/// Fluence of a cell [W/m2]: 4 pi p0 / (1.5 s^2).
-static void read_fluence(const alp_lpv_grid *g, const uint32_t cell[3], float pixel[CHANNELS])
-{
-    enum { TERMS = 4, ROWS = 3 * TERMS };
-    const size_t n = g->size[0], column = ((size_t)cell[2] * g->size[1] + cell[1]) * ROWS;
-    const double scale = 4.0 * M_PI / (ALP_LPV_GAIN * g->cell * g->cell);
-    for (size_t k = 0; k < 3; k++) {
-        const float p0 = g->intensities[(column + k * TERMS) * n + cell[0]];
-        pixel[k] = (float)(scale * fmax((double)p0, 0.0));
-    }
-    pixel[3] = 1.0f;
-}
-
 /// Draws the middle layer along an axis, each cell as a square.
 static alp_result draw_slice(alp_context *context, const alp_lpv_grid *g, uint32_t axis,
                              alp_image **image)
@@ -104,7 +89,8 @@ static alp_result draw_slice(alp_context *context, const alp_lpv_grid *g, uint32
         cell[down] = down == 1 ? high - 1 - row : row;
         for (uint32_t x = 0; x < info.width; x++, pixel += CHANNELS) {
             cell[across] = x / scale;
-            read_fluence(g, cell, pixel);
+            lpv_cell_fluence(g, cell, pixel);
+            pixel[CHANNELS - 1] = 1.0f;
         }
     }
     return ALP_OK;

@@ -101,6 +101,7 @@ typedef enum option_id {
     OPTION_MAP_SIZE,
     OPTION_FRAMES,
     OPTION_SUN_TURN,
+    OPTION_VOLUME,
     OPTION_GLOSS,
     OPTION_MEDIA,
     OPTION_AO_SAMPLES,

@@ -183,6 +183,14 @@ static const option rows[] = {
              "along each axis. +Y is up; from above, +Z is down. slice_x_1.png and so on: coarser "
              "grids.\n"
              "view.png: the view of --camera. Left: lit by the volume. Right: the reference."},
+    {.id = OPTION_VOLUME,
+     .commands = IN_LPV,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--volume",
+     .value = "FILE.lpv.json",
+     .help = "Write the light of the last frame as JSON: the fluence in every cell. alpenglow web "
+             "shows its slices."},
     {.id = OPTION_RESOLUTION,
      .commands = IN_LPV,
      .group = GROUP_OUTPUT,

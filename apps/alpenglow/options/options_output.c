@@ -126,6 +126,23 @@ static const option rows[] = {
      .help =
          "Grid of probes, as alpenglow probes writes it (sh9 or sh4). They light a white sphere "
          "that can be dragged through the scene."},
+    {.id = OPTION_VOLUME,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--volume",
+     .value = "FILE.lpv.json",
+     .help = "Light in space, as alpenglow lpv --volume writes it. The page shows its slices, at a "
+             "place that a slider sets."},
+    {.id = OPTION_REPORT,
+     .commands = IN_WEB,
+     .group = GROUP_OUTPUT,
+     .kind = KIND_TEXT,
+     .name = "--report",
+     .value = "REPORT.html",
+     .help =
+         "Put a link to the page into this report of bake --report, which lies in the folder of "
+         "OUT.html. A link that web put there before is replaced."},
     {.id = OPTION_MAPS_AS,
      .commands = IN_BAKE,
      .group = GROUP_OUTPUT,

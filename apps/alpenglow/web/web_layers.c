@@ -5,6 +5,8 @@
 #include "options/options.h"
 #include "output.h"
 
+#include <alpenglow/alpenglow.h>
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -13,15 +15,8 @@
 
 static const char prefix[] = "irradiance.", ending[] = ".exr";
 
-static int fail(const char *path, const char *text)
-{
-    fputs("alpenglow: ", stderr);
-    print_clean(stderr, path);
-    fprintf(stderr, ": %s\n", text);
-    return EXIT_FAILED;
-}
-
-/// The name of the light, malloc'ed; NULL: the file is no map of one light.
+/// The name of the light, malloc'ed; NULL: the file is no first page of one light. Names of lights
+/// have no dots and are no numbers: those files are further pages.
 static char *layer_name(const char *file)
 {
     static const char *const others[] = {"error", "direct", "bounced"};
@@ -34,6 +29,9 @@ static char *layer_name(const char *file)
         if (strlen(others[i]) == count && strncmp(file + start, others[i], count) == 0) {
             return NULL;
         }
+    }
+    if (memchr(file + start, '.', count) != NULL || strspn(file + start, "0123456789") >= count) {
+        return NULL;
     }
     char *name = allocate_or_exit(NULL, count + 1);
     memcpy(name, file + start, count);
@@ -54,22 +52,56 @@ static bool is_scaled(const web_file *layer)
     return false;
 }
 
-/// @param name becomes the layer's
-static int add_layer(web_scene *scene, const char *folder, const char *file, char *name)
+static json_int_t light_number(const web_scene *scene, const char *key)
 {
-    const size_t size = strlen(folder) + strlen(file) + 2;
-    char *path = allocate_or_exit(NULL, size);
-    snprintf(path, size, "%s/%s", folder, file);
-    web_file layer = {.uri = name};
-    layer.bytes = web_read_file(path, &layer.size);
-    int code = layer.bytes != NULL ? EXIT_DONE : EXIT_FAILED;
-    if (code == EXIT_DONE && is_scaled(&layer)) {
-        code = fail(path, "its values are scaled; bake again with --maps-as exr");
+    const json_t *asset = json_object_get(scene->document, "asset");
+    const json_t *bake = web_member(asset, "extras", "alpenglow");
+    return json_integer_value(web_member(bake, "light", key));
+}
+
+/// Whether the library reads the file, and it has the size of the light in the scene.
+static int check_image(const web_scene *scene, const char *path, const web_file *layer)
+{
+    alp_context *context = NULL;
+    alp_image *image = NULL;
+    if (is_scaled(layer)) {
+        return web_fail(path, "its values are scaled; bake again with --maps-as exr");
     }
+    if (alp_context_create(NULL, &context) != ALP_OK) {
+        return failure("out of memory");
+    }
+    int code = alp_image_load(context, path, &image) == ALP_OK
+                   ? EXIT_DONE
+                   : failure(alp_context_message(context));
+    const json_int_t size = light_number(scene, "size");
+    const uint32_t width = code == EXIT_DONE ? alp_image_get_info(image).width : 0;
+    if (code == EXIT_DONE && size > 0 && size != (json_int_t)width) {
+        char text[160];
+        snprintf(text, sizeof text,
+                 "is of another bake: it has %u texels a side, the light of the scene %lld; name "
+                 "the folder of its own bake",
+                 width, (long long)size);
+        code = web_fail(path, text);
+    }
+    alp_image_destroy(image);
+    alp_context_destroy(context);
+    return code;
+}
+
+/// Reads a page of the layer that scene->layers[index] stands for.
+static int read_page(web_scene *scene, const char *folder, size_t index, unsigned page)
+{
+    web_file *layer = &scene->layers[index];
+    char number[16] = "";
+    if (page > 0) {
+        snprintf(number, sizeof number, ".%u", page);
+    }
+    const size_t size = strlen(folder) + strlen(layer->uri) + sizeof number + 32;
+    char *path = allocate_or_exit(NULL, size);
+    snprintf(path, size, "%s/%s%s%s%s", folder, prefix, layer->uri, number, ending);
+    layer->bytes = web_read_file(path, &layer->size);
+    const int code = layer->bytes != NULL ? check_image(scene, path, layer) : EXIT_FAILED;
     free(path);
-    scene->layers =
-        allocate_or_exit(scene->layers, (scene->layer_count + 1) * sizeof *scene->layers);
-    scene->layers[scene->layer_count++] = layer;
     return code;
 }
 
@@ -78,43 +110,58 @@ static int compare_layers(const void *a, const void *b)
     return strcmp(((const web_file *)a)->uri, ((const web_file *)b)->uri);
 }
 
-/// Layers stand for the light map of all materials: there must be one, of one page.
+/// Layers stand for the light map of all materials: there must be one.
 static int check_bake(const web_scene *scene)
 {
     const json_t *asset = json_object_get(scene->document, "asset");
-    const json_t *bake = json_object_get(json_object_get(asset, "extras"), "alpenglow");
-    const json_t *light = json_object_get(bake, "light");
-    const char *form = json_string_value(json_object_get(light, "as"));
-    const char *units = json_string_value(json_object_get(light, "units"));
-    if (form == NULL || (strcmp(form, "moz") != 0 && strcmp(form, "extras") != 0) ||
-        (units != NULL && strcmp(units, "radiance") == 0)) {
-        return fail(scene->path, "--maps-dir needs light as a map beside the colours; bake with "
-                                 "--layers --lightmap-as extras (or moz)");
+    const json_t *bake = web_member(asset, "extras", "alpenglow");
+    const char *form = json_string_value(web_member(bake, "light", "as"));
+    const char *units = json_string_value(web_member(bake, "light", "units"));
+    const bool is_map = form != NULL && (strcmp(form, "moz") == 0 || strcmp(form, "extras") == 0);
+    return is_map && (units == NULL || strcmp(units, "radiance") != 0)
+               ? EXIT_DONE
+               : web_fail(scene->path, "--maps-dir needs light as a map beside the colours; bake "
+                                       "with --layers --lightmap-as extras (or moz)");
+}
+
+/// Adds a layer for each name in the folder, once for each page, without its bytes.
+static void list_layers(web_scene *scene, DIR *list)
+{
+    for (struct dirent *d = readdir(list); d != NULL; d = readdir(list)) {
+        char *name = layer_name(d->d_name);
+        for (unsigned page = 0; name != NULL && page < scene->pages; page++) {
+            scene->layers =
+                allocate_or_exit(scene->layers, (scene->layer_count + 1) * sizeof *scene->layers);
+            char *copy = page == 0 ? name : allocate_or_exit(NULL, strlen(name) + 1);
+            memmove(copy, name, strlen(name) + 1);
+            scene->layers[scene->layer_count++] = (web_file){.uri = copy};
+        }
     }
-    return json_integer_value(json_object_get(light, "pages")) > 1
-               ? fail(scene->path, "--maps-dir: its light has several pages, layers are shown of "
-                                   "one; bake with a larger --size")
-               : EXIT_DONE;
+    if (scene->layer_count > 0) {
+        qsort(scene->layers, scene->layer_count, sizeof *scene->layers, compare_layers);
+    }
 }
 
 int web_scene_read_layers(web_scene *scene, const char *folder)
 {
     int code = check_bake(scene);
-    DIR *list = code == EXIT_DONE ? opendir(folder) : NULL;
+    if (code != EXIT_DONE) {
+        return code;
+    }
+    DIR *list = opendir(folder);
     if (list == NULL) {
-        return code == EXIT_DONE ? fail(folder, strerror(errno)) : code;
+        return web_fail(folder, strerror(errno));
     }
-    for (struct dirent *d = readdir(list); d != NULL && code == EXIT_DONE; d = readdir(list)) {
-        char *name = layer_name(d->d_name);
-        code = name != NULL ? add_layer(scene, folder, d->d_name, name) : code;
-    }
+    const json_int_t pages = light_number(scene, "pages");
+    scene->pages = pages > 1 && pages < 100000 ? (unsigned)pages : 1;
+    list_layers(scene, list);
     closedir(list);
-    if (code == EXIT_DONE && scene->layer_count == 0) {
-        return fail(folder, "has no maps of single lights, irradiance.NAME.exr; bake with --layers "
-                            "--maps-dir");
+    if (scene->layer_count == 0) {
+        return web_fail(folder, "has no maps of single lights, irradiance.NAME.exr; bake with "
+                                "--layers --maps-dir");
     }
-    if (code == EXIT_DONE) {
-        qsort(scene->layers, scene->layer_count, sizeof *scene->layers, compare_layers);
+    for (size_t i = 0; i < scene->layer_count && code == EXIT_DONE; i++) {
+        code = read_page(scene, folder, i, (unsigned)(i % scene->pages));
     }
     return code;
 }

@@ -9,14 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int fail(const char *path, const char *text)
-{
-    fputs("alpenglow: ", stderr);
-    print_clean(stderr, path);
-    fprintf(stderr, ": %s\n", text);
-    return EXIT_FAILED;
-}
-
 /// Loads the probes as all commands do: sizes and checksums are right then.
 static int check_probes(const char *path)
 {
@@ -43,8 +35,8 @@ static int read_texture(web_scene *scene, const char *path)
     const char *basis = json_string_value(json_object_get(scene->probes, "basis"));
     if (name == NULL || layout == NULL || basis == NULL || strcmp(layout, "grid") != 0 ||
         strcmp(basis, "ambient-cube") == 0) {
-        return fail(path, "the page shows grids of spherical harmonics alone; bake probes with "
-                          "--spacing and --basis sh9 or sh4");
+        return web_fail(path, "the page shows grids of spherical harmonics alone; bake probes with "
+                              "--spacing and --basis sh9 or sh4");
     }
     const char *slash = strrchr(path, '/');
     const int length = slash == NULL ? 0 : (int)(slash + 1 - path);
@@ -56,13 +48,30 @@ static int read_texture(web_scene *scene, const char *path)
     return scene->probe_bytes != NULL ? EXIT_DONE : EXIT_FAILED;
 }
 
-int web_scene_read_probes(web_scene *scene, const char *path)
+/// Whether the grid lies in the scene.
+static int check_place(const web_scene *scene, const char *path, message_log *messages)
 {
-    const int code = check_probes(path);
+    double low[3], high[3];
+    for (size_t k = 0; k < 3; k++) {
+        const json_t *size = json_object_get(scene->probes, "size");
+        low[k] = json_number_value(json_array_get(json_object_get(scene->probes, "origin"), k));
+        high[k] = low[k] + (json_number_value(json_array_get(size, k)) - 1.0) *
+                               json_number_value(
+                                   json_array_get(json_object_get(scene->probes, "spacing"), k));
+    }
+    return web_scene_check_place(scene, path, scene->probes, low, high, messages);
+}
+
+int web_scene_read_probes(web_scene *scene, const char *path, message_log *messages)
+{
+    int code = check_probes(path);
     if (code != EXIT_DONE) {
         return code;
     }
     scene->probes = json_load_file(path, 0, NULL);
-    return scene->probes != NULL ? read_texture(scene, path)
-                                 : fail(path, "its JSON cannot be read; bake the probes again");
+    if (scene->probes == NULL) {
+        return web_fail(path, "its JSON cannot be read; bake the probes again");
+    }
+    code = read_texture(scene, path);
+    return code == EXIT_DONE ? check_place(scene, path, messages) : code;
 }

@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int fail(const char *path, const char *text)
+int web_fail(const char *path, const char *text)
 {
     fputs("alpenglow: ", stderr);
     print_clean(stderr, path);
@@ -22,11 +22,22 @@ static int fail(const char *path, const char *text)
     return EXIT_FAILED;
 }
 
-static void report(message_log *messages, alp_log_level level, const char *code, const char *object,
-                   const char *text)
+void web_report(message_log *messages, alp_log_level level, const char *code, const char *object,
+                const char *text)
 {
     const alp_log_message logged = {.level = level, .code = code, .object = object, .text = text};
     messages_log(messages, &logged);
+}
+
+/// Bytes of a file that a page may hold: four thirds of them are the longest text of a browser.
+enum { FILE_LIMIT = 400000000 };
+static const char too_large[] = "has over 400 MB, more than a browser reads as one text; bake with "
+                                "smaller maps (--size)";
+
+/// What errno says.
+static const char *reason_of(int number)
+{
+    return number == EFBIG ? too_large : strerror(number);
 }
 
 /// The bytes of an ordinary file and a 0. NULL with errno.
@@ -40,6 +51,11 @@ static char *read_bytes(const char *path, size_t *size)
     char *bytes = NULL;
     errno = 0;
     if (fstat(fileno(file), &about) == 0 && S_ISREG(about.st_mode)) {
+        if (about.st_size > FILE_LIMIT) {
+            fclose(file);
+            errno = EFBIG;
+            return NULL;
+        }
         *size = (size_t)about.st_size;
         bytes = allocate_or_exit(NULL, *size + 1);
         bytes[*size] = '\0';
@@ -48,7 +64,9 @@ static char *read_bytes(const char *path, size_t *size)
         free(bytes);
         bytes = NULL;
     }
-    errno = bytes == NULL && errno == 0 ? EIO : errno;
+    if (bytes == NULL && errno == 0) {
+        errno = S_ISDIR(about.st_mode) ? EISDIR : EIO;
+    }
     fclose(file);
     return bytes;
 }
@@ -57,7 +75,7 @@ char *web_read_file(const char *path, size_t *size)
 {
     char *bytes = read_bytes(path, size);
     if (bytes == NULL) {
-        fail(path, strerror(errno));
+        web_fail(path, reason_of(errno));
     }
     return bytes;
 }
@@ -161,13 +179,13 @@ static void add_file(web_scene *scene, const json_t *value, message_log *message
         reason = "lies outside of the folder of the scene";
     } else if (find_file(scene->path, name, path, &reason)) {
         file.bytes = read_bytes(path, &file.size);
-        reason = strerror(errno);
+        reason = reason_of(errno);
     }
     free(name);
     if (file.bytes == NULL) {
         char text[512];
         snprintf(text, sizeof text, "is left out of the page: %s", reason);
-        report(messages, ALP_LOG_WARNING, "web-file-left-out", uri, text);
+        web_report(messages, ALP_LOG_WARNING, "web-file-left-out", uri, text);
         free(file.uri);
         return;
     }
@@ -175,7 +193,7 @@ static void add_file(web_scene *scene, const json_t *value, message_log *message
     scene->files[scene->file_count++] = file;
 }
 
-static const json_t *member(const json_t *object, const char *first, const char *second)
+const json_t *web_member(const json_t *object, const char *first, const char *second)
 {
     return json_object_get(json_object_get(object, first), second);
 }
@@ -193,7 +211,7 @@ static void add_files(web_scene *scene, message_log *messages)
     }
     json_array_foreach(json_object_get(scene->document, "materials"), i, item)
     {
-        add_file(scene, json_object_get(member(item, "extras", "lightmap"), "uri"), messages);
+        add_file(scene, json_object_get(web_member(item, "extras", "lightmap"), "uri"), messages);
     }
 }
 
@@ -205,13 +223,13 @@ static bool is_baked(const json_t *document)
     json_array_foreach(json_object_get(document, "materials"), i, m)
     {
         if (json_object_get(m, "occlusionTexture") != NULL ||
-            member(m, "extensions", "MOZ_lightmap") != NULL ||
-            member(m, "extras", "lightmap") != NULL) {
+            web_member(m, "extensions", "MOZ_lightmap") != NULL ||
+            web_member(m, "extras", "lightmap") != NULL) {
             return true;
         }
     }
-    const json_t *bake = json_object_get(member(document, "asset", "extras"), "alpenglow");
-    return member(bake, "light", "as") != NULL;
+    const json_t *bake = json_object_get(web_member(document, "asset", "extras"), "alpenglow");
+    return web_member(bake, "light", "as") != NULL;
 }
 
 /// Refuses what three.js needs a decoder for that the page has not.
@@ -227,7 +245,7 @@ static int check_extensions(const web_scene *scene)
                 char text[128];
                 snprintf(text, sizeof text,
                          "uses %s, which the page cannot decode; save it without", absent[k]);
-                return fail(scene->path, text);
+                return web_fail(scene->path, text);
             }
         }
     }
@@ -243,98 +261,46 @@ int web_scene_read(web_scene *scene, const char *path, message_log *messages)
     }
     scene->document = parse(scene);
     if (scene->document == NULL) {
-        return fail(path, "its JSON cannot be read; save it again");
+        return web_fail(path, "its JSON cannot be read; save it again");
     }
     const int code = check_extensions(scene);
     if (code != EXIT_DONE) {
         return code;
     }
     if (!is_baked(scene->document)) {
-        report(messages, ALP_LOG_NOTE, "web-no-maps", path,
-               "holds no baked map; the page shows it in plain light (bake it first: alpenglow "
-               "bake)");
+        web_report(messages, ALP_LOG_NOTE, "web-no-maps", path,
+                   "holds no baked map; the page shows it in plain light (bake it first: alpenglow "
+                   "bake)");
     }
+    scene->pages = 1;
     add_files(scene, messages);
     return EXIT_DONE;
 }
 
-static void write_base64(FILE *stream, const char *bytes, size_t size)
+int web_scene_check_place(const web_scene *scene, const char *path, const json_t *document,
+                          const double low[3], const double high[3], message_log *messages)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = (const unsigned char *)bytes;
-    for (size_t i = 0; i < size; i += 3) {
-        const size_t left = size - i;
-        const uint32_t bits = (uint32_t)b[i] << 16 | (left > 1 ? (uint32_t)b[i + 1] << 8 : 0) |
-                              (left > 2 ? (uint32_t)b[i + 2] : 0);
-        const char text[4] = {digits[bits >> 18], digits[bits >> 12 & 63],
-                              left > 1 ? digits[bits >> 6 & 63] : '=',
-                              left > 2 ? digits[bits & 63] : '='};
-        fwrite(text, 1, sizeof text, stream);
-    }
-}
-
-/// Writes JSON that can stand in a script element.
-static void write_json(FILE *stream, const json_t *value)
-{
-    char *dump = value != NULL ? json_dumps(value, JSON_ENCODE_ANY) : NULL;
-    for (const char *at = dump != NULL ? dump : "\"\""; *at != '\0'; at++) {
-        if (*at == '<') {
-            fputs("\\u003c", stream);
-        } else {
-            fputc(*at, stream);
+    const double *first = scene->bounds[0], *last = scene->bounds[1];
+    for (int k = 0; k < 3; k++) {
+        if (high[k] < first[k] || low[k] > last[k]) {
+            char text[256];
+            snprintf(text, sizeof text,
+                     "lies outside of the scene, from %.3g to %.3g m along %c, where the scene "
+                     "reaches from %.3g to %.3g m; make it of this scene",
+                     low[k], high[k], "xyz"[k], first[k], last[k]);
+            return web_fail(path, text);
         }
     }
-    free(dump);
-}
-
-static void write_json_text(FILE *stream, const char *text)
-{
-    json_t *value = json_text(text);
-    write_json(stream, value);
-    json_decref(value);
-}
-
-static void write_data(FILE *stream, const char *kind, const char *bytes, size_t size)
-{
-    fprintf(stream, "<script type=\"application/base64\" class=\"%s\">", kind);
-    write_base64(stream, bytes, size);
-    fputs("</script>\n", stream);
-}
-
-static void write_names(FILE *stream, const web_file *files, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        fputs(i > 0 ? ", " : "", stream);
-        write_json_text(stream, files[i].uri);
+    const json_t *asset = json_object_get(scene->document, "asset");
+    const json_t *bake = web_member(asset, "extras", "alpenglow");
+    const char *ours = json_string_value(json_object_get(bake, "input_hash"));
+    const char *theirs = json_string_value(web_member(document, "scene", "hash"));
+    if (ours != NULL && theirs != NULL && strcmp(ours, theirs) != 0) {
+        web_report(messages, ALP_LOG_WARNING, "web-other-scene", path,
+                   "was made of another scene than this bake, or of another state of it; its light "
+                   "may not fit");
     }
-}
-
-void web_scene_write(FILE *stream, const web_scene *scene)
-{
-    const char *slash = strrchr(scene->path, '/');
-    fputs("<script type=\"application/json\" id=\"scene\">{\"name\": ", stream);
-    write_json_text(stream, slash == NULL ? scene->path : slash + 1);
-    fputs(", \"files\": [", stream);
-    write_names(stream, scene->files, scene->file_count);
-    fputs("], \"layers\": [", stream);
-    write_names(stream, scene->layers, scene->layer_count);
-    fputs("], \"probes\": ", stream);
-    if (scene->probes != NULL) {
-        write_json(stream, scene->probes);
-    } else {
-        fputs("null", stream);
-    }
-    fputs("}</script>\n", stream);
-    write_data(stream, "asset", scene->bytes, scene->size);
-    for (size_t i = 0; i < scene->file_count; i++) {
-        write_data(stream, "file", scene->files[i].bytes, scene->files[i].size);
-    }
-    for (size_t i = 0; i < scene->layer_count; i++) {
-        write_data(stream, "layer", scene->layers[i].bytes, scene->layers[i].size);
-    }
-    if (scene->probes != NULL) {
-        write_data(stream, "probes", scene->probe_bytes, scene->probe_size);
-    }
+    return EXIT_DONE;
 }
 
 static void release_files(web_file *files, size_t count)
@@ -350,6 +316,8 @@ void web_scene_release(web_scene *scene)
 {
     release_files(scene->files, scene->file_count);
     release_files(scene->layers, scene->layer_count);
+    release_files(scene->grids, scene->grid_count);
+    json_decref(scene->volume);
     free(scene->probe_bytes);
     json_decref(scene->probes);
     free(scene->bytes);

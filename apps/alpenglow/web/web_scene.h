@@ -18,21 +18,31 @@ typedef struct web_file {
 
 /// Zeroed before web_scene_read.
 typedef struct web_scene {
-    const char *path; // borrowed
-    char *bytes;      // [size] of the asset
+    const char *path;    // borrowed
+    double bounds[2][3]; // metres: the lowest and the highest corner
+    char *bytes;         // [size] of the asset
     size_t size;
     json_t *document;
     web_file *files; // [file_count]
     size_t file_count;
-    web_file *layers; // [layer_count], maps of single lights by the light's name
+    unsigned pages;   // of the atlas of light, >= 1
+    web_file *layers; // [layer_count], maps of single lights by the light's name, page after page
     size_t layer_count;
     json_t *probes;    // NULL: none
     char *probe_bytes; // [probe_size], their light as KTX2
     size_t probe_size;
+    json_t *volume;  // cell, corner and size of each grid; NULL: none
+    web_file *grids; // [grid_count], fluence of the cells: little-endian floats, RGB
+    size_t grid_count;
 } web_scene;
 
 /// The bytes of a file and a 0 after them, malloc'ed. NULL after a message.
 char *web_read_file(const char *path, size_t *size);
+/// Prints a fault of a file. @return EXIT_FAILED
+int web_fail(const char *path, const char *text);
+void web_report(message_log *messages, alp_log_level level, const char *code, const char *object,
+                const char *text);
+const json_t *web_member(const json_t *object, const char *first, const char *second);
 
 /// Reads an asset that the library has loaded, and the files that it names. A file that cannot be
 /// read, or lies outside of the folder of the asset, is left out with a warning.
@@ -41,7 +51,14 @@ int web_scene_read(web_scene *scene, const char *path, message_log *messages);
 /// Reads the maps of single lights from a folder of bake --maps-dir, after web_scene_read.
 int web_scene_read_layers(web_scene *scene, const char *folder);
 /// Reads baked probes.
-int web_scene_read_probes(web_scene *scene, const char *path);
+int web_scene_read_probes(web_scene *scene, const char *path, message_log *messages);
+/// Reads the volume of alpenglow lpv --volume.
+int web_scene_read_volume(web_scene *scene, const char *path, message_log *messages);
+/// Whether light in space belongs to the scene: refuses a box that lies outside of its bounds, and
+/// warns where the file names another scene.
+/// @param document of the file   @param low, high metres   @return EXIT_DONE, or EXIT_FAILED
+int web_scene_check_place(const web_scene *scene, const char *path, const json_t *document,
+                          const double low[3], const double high[3], message_log *messages);
 /// Writes the elements of the page that hold the scene.
 void web_scene_write(FILE *stream, const web_scene *scene);
 void web_scene_release(web_scene *scene);

@@ -34,7 +34,40 @@ echo '{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nod
 "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}' >plain.gltf
 alpenglow web plain.gltf -o plain.html 2>&1 | sed 's/[0-9.]* MB/N MB/g'
 alpenglow web plain.gltf -q -f plain.html 2>&1
+echo '== pages of an atlas'
+bake="alpenglow bake builtin:cornell --maps light --samples 16 --size 64 --layers -q --lightmap-as moz"
+$bake --texels-per-metre 60 -o pages.glb --maps-dir pages
+alpenglow web pages.glb -q -o pages.html --maps-dir pages
+grep -o '"layers".*' pages.html
+grep -c 'class="layer"' pages.html
+echo '== light in space'
+alpenglow lpv builtin:cornell --grid 4 --frames 1 -q --volume box.lpv.json
+alpenglow web pages.glb -q -o volume.html --volume box.lpv.json
+grep -o '"volume": .*' volume.html
+grep 'class="volume"' volume.html | sed 's/[^>]*>\([^<]*\)<.*/\1/' | base64 -d | wc -c
+sed 's/"hash":"./"hash":"x/' box.lpv.json >other.lpv.json
+try web pages.glb -o volume.html -f --volume other.lpv.json
+sed 's/"corner":\[/"corner":[1/' box.lpv.json | sed 's/1-/1/' >far.lpv.json
+sed 's/"version":1/"version":2/' box.lpv.json >newer.lpv.json
+sed 's/"size":\[4/"size":[5/' box.lpv.json >short.lpv.json
+sed '9s/^[^,]*,/-1,/' box.lpv.json >negative.lpv.json
+alpenglow probes builtin:cornell -o box.probes.json --spacing 0.4 -q
+sed 's/"origin":\[/"origin":[7/' box.probes.json >far.probes.json
+for file in far newer short negative missing; do
+    try web pages.glb -o fault.html --volume $file.lpv.json
+done
+try web pages.glb -o fault.html --volume pages.glb
+try web pages.glb -o fault.html --probes far.probes.json
 echo '== faults'
+rm 'pages/irradiance.lamp.1.exr'
+try web pages.glb -o fault.html --maps-dir pages
+$bake -f --size 32 -o small.glb --maps-dir small
+$bake -f -o single.glb --maps-dir single
+try web single.glb -o fault.html --maps-dir small
+truncate -s 401M single/irradiance.lamp.exr
+try web single.glb -o fault.html --maps-dir single
+echo text >single/irradiance.lamp.exr
+try web single.glb -o fault.html --maps-dir single
 alpenglow bake builtin:cornell --size 16 -q -o baked.glb
 head -c 300 baked.glb >cut.glb
 echo '{"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_texture_basisu"]}' >basis.gltf

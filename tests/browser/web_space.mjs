@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Light in space on pages of alpenglow web: the sphere that probes light, and slices of volumes, beside
+// alpenglow sample.
+import { execFileSync } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import path from 'node:path';
+import { alpenglow, check, difference, exposure, folder, label, open, ready, seen, shoot, side, toggle } from './web_pages.mjs';
+
+/// The place at which the camera of the box, looking along +z, sees a point; and the normal that faces it.
+const eye = [0.278, 0.273, -0.8];
+const focal = side / 2 / Math.tan(0.686047912 / 2);
+function seenAt(point) {
+  const [x, y, z] = point.map((p, k) => p - eye[k]);
+  const length = Math.hypot(x, y, z);
+  return { pixel: [side / 2 - (focal * x) / z, side / 2 - (focal * y) / z].map(Math.floor), normal: [-x / length, -y / length, -z / length] };
+}
+
+/// The value that the page should show of a white surface: the film curve, in eight bits of sRGB.
+function displayed(irradiance) {
+  const film = 1 - Math.exp((-(2 ** exposure) * irradiance) / Math.PI);
+  return 255 * (film <= 0.0031308 ? 12.92 * film : 1.055 * film ** (1 / 2.4) - 0.055);
+}
+
+function sample(point, normal) {
+  const words = ['sample', 'builtin:cornell', '--with', 'probes', '--probes', path.join(folder, 'cornell.probes.json'), '--at', '-', '-q'];
+  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${[...point, ...normal].join()}\n` });
+  return printed.trim().split('\n').at(-1).split(',').slice(6, 9).map(Number);
+}
+
+async function pixelOf(page, [x, y]) {
+  const one = (await shoot(page)).toString('base64');
+  return page.evaluate(async ([text, u, v]) => {
+    const image = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(u, v, 1, 1).data];
+  }, [one, x, y]);
+}
+
+/// The sphere at two probes, where every look-up is the same, and dragged.
+export async function checkProbes() {
+  const page = await open('probes.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const { origin, spacing } = JSON.parse(await readFile(path.join(folder, 'cornell.probes.json'), 'utf8'));
+  for (const index of [1, 2]) {
+    await page.focus('#sphere-x');
+    if (index === 2) await page.keyboard.press('End');
+    const point = origin.map((o, k) => o + (k === 0 ? index : 1) * spacing[k]);
+    const { pixel, normal } = seenAt(point);
+    const wanted = sample(point, normal).map(displayed);
+    const got = await pixelOf(page, pixel);
+    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
+    check(`sphere at probe ${index}`, worst <= 2, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}`);
+  }
+  const before = await page.inputValue('#sphere-y');
+  const { pixel } = seenAt(origin.map((o, k) => o + (k === 0 ? 2 : 1) * spacing[k]));
+  await page.evaluate(() => document.querySelector('#controls').removeAttribute('open')); // it lies over the picture
+  await page.mouse.move(...pixel);
+  await page.mouse.down();
+  await page.mouse.move(pixel[0], pixel[1] - 40, { steps: 4 });
+  await page.mouse.up();
+  const moved = (await page.inputValue('#sphere-y')) - before;
+  const expected = (40 * (origin[2] + spacing[2] - eye[2] - 0.05)) / focal;
+  check('sphere dragged', Math.abs(moved - expected) < 0.02, `by ${moved.toFixed(3)} m, ${expected.toFixed(3)} m in the picture`);
+  await page.context().close();
+}
+
+/// Fluence of a cell, by the irradiance that alpenglow sample finds on both sides of a surface there:
+/// a surface reads the cell half a side above itself. 4 E: the mean of E over all normals is Φ / 4.
+function sampleFluence(centre, cell) {
+  const points = [1, -1].map((sign) => [...centre.map((c, k) => c - (k === 1 ? (sign * cell) / 2 : 0)), 0, sign, 0].join());
+  const words = ['sample', 'builtin:cornell', '--with', 'lpv', '--grid', '16', '--at', '-', '-q'];
+  const printed = execFileSync(alpenglow, words, { encoding: 'utf8', input: `${points.join('\n')}\n` });
+  const [up, down] = printed.trim().split('\n').slice(-2).map((line) => line.split(',').slice(6, 9).map(Number));
+  return { fluence: up.map((e, k) => 2 * (e + down[k])), isCut: [...up, ...down].some((e) => e <= 0) };
+}
+
+/// A slice that was clicked on: its cells beside the file, and beside alpenglow sample.
+export async function checkSlices() {
+  const page = await open('slices.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const before = await shoot(page);
+  check('slice off', await page.isHidden('#slice'), 'its controls are hidden');
+  await toggle(page, 'slices');
+  await page.focus('#slice-axis');
+  await page.keyboard.type('z');
+  await page.focus('#slice-place');
+  await page.keyboard.press('Home');
+  for (let i = 0; i < 3; i++) await page.keyboard.press('ArrowRight');
+  const change = await difference(page, await shoot(page), before);
+  check('slice', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
+  const [grid] = JSON.parse(await readFile(path.join(folder, 'cornell.lpv.json'), 'utf8')).grids;
+  const text = await page.textContent('#slice-value');
+  const layer = Math.floor(-grid.corner[2] / grid.cell) + 3; // the scene begins at z = 0
+  const place = grid.corner[2] + (layer + 0.5) * grid.cell;
+  check('slice place', Math.abs(parseFloat(text) - place) < 1e-3, `${text}, layer ${layer} at ${place.toFixed(4)} m`);
+  await page.locator('#controls > summary').click();
+  for (const [x, y] of [[4, 11], [8, 11], [12, 7]]) {
+    const cell = [x, y, layer];
+    const centre = cell.map((c, k) => grid.corner[k] + (c + 0.5) * grid.cell);
+    const first = 3 * (x + 16 * (y + 16 * layer));
+    const written = grid.fluence.slice(first, first + 3);
+    const { fluence, isCut } = sampleFluence(centre, grid.cell);
+    const wanted = fluence.map((f) => displayed(f / 4)); // radiance Φ / 4π is that of E = Φ / 4
+    const got = await pixelOf(page, seenAt(centre).pixel);
+    const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
+    const apart = Math.max(...written.map((w, k) => Math.abs(w / fluence[k] - 1)));
+    check(`slice at ${cell}`, !isCut && worst <= 1.5 && apart < 1e-3, `${got.slice(0, 3)}, sample ${wanted.map((w) => w.toFixed(1))}; file within ${apart.toExponential(1)}`);
+  }
+  await page.locator('#controls > summary').click();
+  await toggle(page, 'light');
+  const dark = await shoot(page);
+  await toggle(page, 'slices');
+  check('slice without light', (await difference(page, await shoot(page), dark)) < 0.01, 'is not drawn');
+  await page.context().close();
+}
+
+/// Several grids: one is chosen, and its slices have its own cells.
+export async function checkGrids() {
+  const page = await open('grids.html', { viewport: { width: 360, height: 640 }, hasTouch: true, isMobile: true });
+  await ready(page);
+  await label(page, 'slices').tap();
+  const { grids } = JSON.parse(await readFile(path.join(folder, 'grids.lpv.json'), 'utf8'));
+  const labels = await page.locator('#slice-grid option').allTextContents();
+  check('grids', labels.length === 2 && labels[1].includes(String(Number(grids[1].cell.toPrecision(3)))), labels.join(', '));
+  const before = await shoot(page);
+  await page.selectOption('#slice-grid', '1');
+  const change = await difference(page, await shoot(page), before);
+  const first = Math.floor(-grids[1].corner[0] / grids[1].cell); // the scene reaches from 0 to 0.556 m
+  const last = Math.floor((0.556 - grids[1].corner[0]) / grids[1].cell);
+  const place = grids[1].corner[0] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
+  const text = await page.textContent('#slice-value');
+  check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
+  const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);
+  check('grids, phone', !wide, 'the panel fits');
+  await page.context().close();
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Slices of a light propagation volume: one layer of cells across an axis, drawn in the scene. A cell
+// shows its mean radiance, fluence / 4π: a white surface that is lit so from all sides looks alike.
+import * as THREE from 'three';
+
+/// The two axes along which the slices across an axis lie.
+const acrossOf = (axis) => [(axis + 1) % 3, (axis + 2) % 3];
+
+/// The texels of a slice, [n][n][4], and the largest fluence of a channel in it.
+function readLayer({ size, fluence }, axis, layer) {
+  const [u, v] = acrossOf(axis);
+  const texels = new Float32Array(4 * size[u] * size[v]);
+  const cell = [0, 0, 0];
+  let [brightest, at] = [0, 0];
+  cell[axis] = layer;
+  for (cell[v] = 0; cell[v] < size[v]; cell[v]++) {
+    for (cell[u] = 0; cell[u] < size[u]; cell[u]++, at += 4) {
+      const first = 3 * (cell[0] + size[0] * (cell[1] + size[1] * cell[2]));
+      for (let k = 0; k < 3; k++) {
+        texels[at + k] = fluence[first + k] / (4 * Math.PI);
+        brightest = Math.max(brightest, fluence[first + k]);
+      }
+      texels[at + 3] = 1;
+    }
+  }
+  return { texels, brightest };
+}
+
+/// The place of the middle of a layer, in metres.
+const placeOf = ({ corner, cell }, axis, layer) => corner[axis] + (layer + 0.5) * cell;
+
+/// Corners of the slice, [4][3], in the order of the texture's rows.
+function cornersOf(grid, axis, layer) {
+  const [u, v] = acrossOf(axis);
+  return [[0, 0], [1, 0], [0, 1], [1, 1]].flatMap(([a, b]) => {
+    const point = [0, 0, 0];
+    point[axis] = placeOf(grid, axis, layer);
+    point[u] = grid.corner[u] + a * grid.size[u] * grid.cell;
+    point[v] = grid.corner[v] + b * grid.size[v] * grid.cell;
+    return point;
+  });
+}
+
+/// The first and the last layer across an axis that touch the scene.
+function rangeOf({ corner, cell, size }, axis, bounds) {
+  const layerAt = (place) => THREE.MathUtils.clamp(Math.floor((place - corner[axis]) / cell), 0, size[axis] - 1);
+  return [layerAt(bounds.min.getComponent(axis)), layerAt(bounds.max.getComponent(axis))];
+}
+
+function makeQuad() {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(12), 3));
+  geometry.setAttribute('uv', new THREE.BufferAttribute(new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]), 2));
+  geometry.setIndex([0, 1, 2, 2, 1, 3]);
+  const quad = new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ side: THREE.DoubleSide }));
+  quad.frustumCulled = false;
+  return quad;
+}
+
+/// @param grids [{ cell, corner, size, fluence }], the finest first   @param root the scene
+/// @param changed called after `show`
+/// @returns { scene, grids, range(grid, axis), show(grid, axis, layer) }; show returns { place, brightest },
+/// m and W/m²
+export function makeSlices(grids, root, changed) {
+  const bounds = new THREE.Box3().setFromObject(root);
+  const quad = makeQuad();
+  const scene = new THREE.Scene();
+  scene.add(quad);
+  scene.visible = false;
+  const show = (index, axis, layer) => {
+    const grid = grids[index];
+    const [u, v] = acrossOf(axis);
+    const { texels, brightest } = readLayer(grid, axis, layer);
+    quad.material.map?.dispose();
+    quad.material.map = new THREE.DataTexture(texels, grid.size[u], grid.size[v], THREE.RGBAFormat, THREE.FloatType);
+    quad.material.map.needsUpdate = true; // its filter is the nearest texel: a square is a cell
+    quad.material.needsUpdate = true;
+    quad.geometry.attributes.position.array.set(cornersOf(grid, axis, layer));
+    quad.geometry.attributes.position.needsUpdate = true;
+    changed();
+    return { place: placeOf(grid, axis, layer), brightest };
+  };
+  return { scene, grids, show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
+}
