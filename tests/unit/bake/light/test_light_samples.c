@@ -30,6 +30,7 @@ typedef struct stage {
     test_radiant r;
     alpi_receivers receivers;
     alpi_bake_job job;
+    alpi_light_clock clock;
     alpi_light_bake light;
     alpi_light_rounds rounds;
 } stage;
@@ -53,7 +54,8 @@ static void start(uint32_t workers, stage *s)
                                  .receivers = &s->receivers,
                                  .order = s->r.lattice.order,
                                  .count = s->r.texels.count,
-                                 .lattice = &s->r.lattice};
+                                 .lattice = &s->r.lattice,
+                                 .clock = &s->clock};
     s->light.settings.most_rays = 65536;
     s->rounds = (alpi_light_rounds){
         .light = &s->light, .solution = &s->r.solution, .direct = {.most = FIRST, .power = 0.6}};
