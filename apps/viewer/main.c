@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // alpenglow-view: draws scenes by OpenGL. `alpenglow view` runs it with the same arguments.
+#include "library.h"
 #include "options/options.h"
 #include "streams.h"
 #include "view_run.h"
@@ -10,7 +11,8 @@ static int run(int count, char **words)
     if (arguments_ask_for_help(count, words) != HELP_NONE) {
         return help_print_command(COMMAND_VIEW, HELP_ALL);
     }
-    const int code = arguments_parse(COMMAND_VIEW, count, words, &parsed);
+    int code = library_check();
+    code = code == EXIT_DONE ? arguments_parse(COMMAND_VIEW, count, words, &parsed) : code;
     return code == EXIT_DONE ? view_run(&parsed) : code;
 }
 
