@@ -27,7 +27,7 @@ for need in apt-get dh lintian mmdebstrap dpkg-scanpackages; do
     builtin command -v "$need" >/dev/null 2>&1 || skip "there is no $need ('scripts/setup.sh deb')"
 done
 [ "$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)" = $suite ] || skip "this is not Debian $suite"
-mode=unshare # with root or these no call of chroot reaches this machine
+mode=unshare # not the modes that imitate chroot
 [ "$(id -u)" != 0 ] || mode=root
 mmdebstrap --quiet --mode=$mode --simulate --variant=essential $suite /dev/null $mirror >/dev/null 2>&1 ||
     skip "mmdebstrap finds no network, or may make no root"
