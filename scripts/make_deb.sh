@@ -21,7 +21,8 @@ left_out() { # what, reason
 }
 
 missing=""
-for need in dh:debhelper dpkg-buildpackage:dpkg-dev cmake:cmake ninja:ninja-build; do
+for need in dh:debhelper dpkg-buildpackage:dpkg-dev cmake:cmake ninja:ninja-build \
+    pkg-config:pkg-config; do
     command -v "${need%%:*}" >/dev/null 2>&1 || missing="$missing ${need#*:}"
 done
 if [ -n "$missing" ]; then
@@ -53,11 +54,13 @@ tree=$work/alpenglow-$version
 rm -rf "$work"
 mkdir -p "$tree"
 tar -c --exclude=./build --exclude=./demo --exclude=./.git --exclude='./tests/*/node_modules' \
-    --exclude=__pycache__ . | tar -x -C "$tree"
+    --exclude=__pycache__ --exclude="./$(realpath --relative-to=. "$output")" . | tar -x -C "$tree"
 
 cp -r packaging/debian "$tree/debian"
 mv "$tree/debian/libalpenglow.install" "$tree/debian/libalpenglow$soversion.install"
-sed -i "s/@SOVERSION@/$soversion/; s/@MAINTAINER@/$maintainer/" "$tree/debian/control"
+control=$(<packaging/debian/control)
+control=${control//@SOVERSION@/"$soversion"}
+printf '%s\n' "${control//@MAINTAINER@/"$maintainer"}" >"$tree/debian/control"
 cat >"$tree/debian/changelog" <<CHANGELOG
 alpenglow ($version) unstable; urgency=medium
 

@@ -187,7 +187,7 @@ $(cat "$work/difference")"
     ;;
 old_library)
     [ -e "$libraries/libalpenglow.so" ] || exit 0 # a static library is as old as its program
-    for version in 0.0.9 0.1.999; do
+    for version in 0.0.9 999.0.0; do
         echo "const char *alp_version(void); const char *alp_version(void) { return \"$version\"; }" |
             cc -shared -fPIC -xc - -o "$work/$version.so"
     done
@@ -198,7 +198,7 @@ old_library)
             "$work/error" || fail "$program: $(cat "$work/error")"
         [ "$(wc -l <"$work/error")" = 1 ] || fail "more than one line: $(cat "$work/error")"
     done
-    LD_PRELOAD=$work/0.1.999.so "$prefix/bin/alpenglow" info builtin:cornell >"$work/out" ||
+    LD_PRELOAD=$work/999.0.0.so "$prefix/bin/alpenglow" info builtin:cornell >"$work/out" ||
         fail "a later library is refused"
     ;;
 readme)

@@ -90,9 +90,9 @@ old_library)
             refused "libalpenglow is of version 0.0.9, older than this program" \
                 env LD_PRELOAD=/trial/old.so $program bake builtin:cornell
     done
-    library=$(echo /usr/lib/*/libalpenglow.so.0.1)
+    library=$(dirname /usr/lib/*/libalpenglow.so)/$(readlink /usr/lib/*/libalpenglow.so)
     mv "$library" moved.so
-    refused "libalpenglow.so.0.1: cannot open shared object file" alpenglow --version
+    refused "$(basename "$library"): cannot open shared object file" alpenglow --version
     mv moved.so "$library"
     alpenglow --version >out.txt || fail "no version"
     ;;

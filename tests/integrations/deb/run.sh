@@ -41,8 +41,8 @@ work=$(cd "$work" && pwd)
 as_root=""
 [ "$(id -u)" != 0 ] || as_root=--allow-root
 lintian $as_root --fail-on error "$work/packages"/*.changes || fail "lintian finds errors"
-for name in alpenglow libalpenglow0.1 libalpenglow-dev alpenglow-viewer alpenglow-mpi; do
-    ls "$work/packages/${name}_"*.deb >/dev/null 2>&1 ||
+for name in alpenglow 'libalpenglow[0-9]*' libalpenglow-dev alpenglow-viewer alpenglow-mpi; do
+    compgen -G "$work/packages/${name}_*.deb" >/dev/null 2>&1 ||
         case $name in
         alpenglow-viewer) echo "without alpenglow-viewer" ;;
         alpenglow-mpi) echo "without alpenglow-mpi" ;;
