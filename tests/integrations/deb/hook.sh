@@ -5,10 +5,10 @@
 #   hook.sh ROOT SHARE    SHARE holds what run.sh put there
 set -euo pipefail
 root=$1 share=$2
-[ "${MMDEBSTRAP_HOOK:-}" = customize ] && [ "$(realpath "$root")" != / ] || {
+if [ "${MMDEBSTRAP_HOOK:-}" != customize ] || [ "$(realpath "$root")" = / ]; then
     echo "deb: hook.sh installs and removes packages, and only mmdebstrap may call it" >&2
     exit 1
-}
+fi
 
 apt() { # arguments: the apt-get of the root, which cannot reach the machine around it
     chroot "$root" apt-get -qq --yes -o Dpkg::Use-Pty=0 "$@" >"$root/trial/apt.txt" 2>&1 || {
