@@ -62,5 +62,6 @@ cp "$here/inside.sh" "$sources/tests/consumer/project/consumer.c" \
     "$sources/tests/consumer/project/CMakeLists.txt" "$share"
 "$command" bake builtin:cornell -o "$share/expected.glb" --size 64 --maps ao,light -q
 chmod -R a+rX "$share"
-mmdebstrap --quiet --mode=$mode --variant=apt --customize-hook="'$here/hook.sh' \"\$1\" '$share'" $suite /dev/null $mirror ||
+mmdebstrap --quiet --mode=$mode --variant=apt \
+    --customize-hook="'$here/hook.sh' \"\$1\" '$share'" $suite /dev/null $mirror ||
     fail "the packages do not work in a root of Debian $suite (see above)"
