@@ -19,8 +19,8 @@ FUZZ_TARGETS ?=
 # Pictures of docs/gallery.md to make; empty: all that are quick.
 GALLERY ?=
 
-.PHONY: all demo gallery test test-fast test-integrations fuzz format lint lint-all install clean \
-        help
+.PHONY: all demo gallery test test-fast test-integrations fuzz format lint lint-all install deb \
+        clean help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
@@ -47,7 +47,7 @@ test-fast: ## Run all but slow tests and integrations, which takes a minute or s
 	@$(call build,dev)
 	@scripts/test.py dev fast
 
-test-integrations: ## Run what needs Blender, a browser, numpy or Slurm; see scripts/setup.sh
+test-integrations: ## Run what needs Blender, a browser, numpy, Slurm or packages; see scripts/setup.sh
 	$(call setup,check)
 	@$(call build,dev)
 	@scripts/test.py dev integrations
@@ -73,6 +73,10 @@ install: ## Build and install to PREFIX (default /usr/local; DESTDIR is honoured
 	$(call setup,build)
 	@$(call build,release)
 	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
+
+deb: ## Set up, build Debian packages into build/deb
+	$(call setup,deb)
+	@scripts/make_deb.sh
 
 clean: ## Remove everything that was built
 	@rm -rf build demo

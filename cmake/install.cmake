@@ -45,10 +45,16 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/alpenglowConfigVersion.cmake
         DESTINATION ${ALP_PACKAGE_FOLDER})
 
-# pkg-config. Embree 3 and meshoptimizer have no .pc file of their own.
-if(ALP_HAS_DRACO)
-    set(ALP_PKGCONFIG_REQUIRES " draco")
-    set(ALP_PKGCONFIG_LIBS " -lstdc++")
+# pkg-config. Only programs with a static library link its libraries, and so need their files. Embree
+# 3 and meshoptimizer have no .pc file of their own.
+if(ALP_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+    set(ALP_PKGCONFIG_REQUIRES "jansson libpng libjpeg OpenEXR libxml-2.0 zlib libzstd libwebp")
+    set(ALP_PKGCONFIG_LIBS "-lembree3 -lmeshoptimizer")
+    if(ALP_HAS_DRACO)
+        string(APPEND ALP_PKGCONFIG_REQUIRES " draco")
+        string(APPEND ALP_PKGCONFIG_LIBS " -lstdc++")
+    endif()
+    string(APPEND ALP_PKGCONFIG_LIBS " -lm -pthread")
 endif()
 set(ALP_PKGCONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH ALP_PKGCONFIG_TO_PREFIX "${CMAKE_INSTALL_PREFIX}/${ALP_PKGCONFIG_FOLDER}"

@@ -7,6 +7,7 @@
 #   scripts/setup.sh browser  that, a browser (some 500 MB), which opens what is written for it, and
 #                             what the Python module needs
 #   scripts/setup.sh cluster  what check needs, MPI, and Slurm for tests (some 140 MB)
+#   scripts/setup.sh deb      what build needs, MPI, and what builds and tests Debian packages
 #
 # Packages come from Debian (apt-get, through sudo where not root). From npm come three.js for the page
 # of alpenglow web, wherever npm is there, the file validator of the tests, and what runs in a browser,
@@ -65,6 +66,15 @@ cluster_packages="
     openmpi-bin         mpirun
     slurm-wlm           -
     munge               -"
+deb_packages="
+    ca-certificates     -
+    debhelper           dh
+    dpkg-dev            dpkg-buildpackage
+    libopenmpi-dev      -
+    lintian             lintian
+    mmdebstrap          mmdebstrap
+    nodejs              node
+    npm                 npm"
 python_packages="
     python3-cffi        -
     python3-numpy       -
@@ -135,9 +145,10 @@ case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
 cluster) wanted=$build_packages$'\n'$check_packages$'\n'$cluster_packages ;;
+deb) wanted=$build_packages$'\n'$deb_packages ;;
 browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages$'\n'$python_packages ;;
 *)
-    say "usage: scripts/setup.sh [build|check|browser|cluster]"
+    say "usage: scripts/setup.sh [build|check|browser|cluster|deb]"
     exit 2
     ;;
 esac
@@ -147,7 +158,7 @@ missing=$(missing_packages "$wanted" | xargs)
 if command -v npm >/dev/null 2>&1; then
     install_npm web/viewer "alpenglow web will say what is missing"
 fi
-if [ "${1:-check}" != build ]; then
+if [ "${1:-check}" != build ] && [ "${1:-check}" != deb ]; then
     install_npm tests/validator "tests that validate glTF files will be skipped, and say so"
     if command -v chromium >/dev/null 2>&1; then
         install_npm tests/browser "tests that open files in a browser will be skipped, and say so"

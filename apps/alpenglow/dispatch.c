@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "compare_assets.h"
 #include "interrupt.h"
+#include "library.h"
 #include "printing/messages.h"
 
 #include <alpenglow/alpenglow.h>
@@ -173,6 +174,9 @@ static int dispatch_option(int count, char **words)
 
 int command_dispatch(int count, char **words)
 {
+    if (library_check() != EXIT_DONE) {
+        return EXIT_FAILED;
+    }
     if (count < 1) {
         return print_examples();
     }

@@ -9,6 +9,7 @@
 #   check.sh symbols WORK          the library shows what the headers declare, and nothing else
 #   check.sh examples WORK         examples/ compile as their first comments say and by CMake, and run
 #   check.sh manual WORK           manual pages and completion lie where man and the shells look
+#   check.sh old_library WORK      programs refuse a library that is older than they are
 #   check.sh readme WORK           the README shows the program that is built here
 set -euo pipefail
 project=$(cd "$(dirname "$0")/project" && pwd)
@@ -183,6 +184,22 @@ symbols)
     diff "$work/declared" "$work/shown" >"$work/difference" ||
         fail "declared (<) and shown (>) differ:
 $(cat "$work/difference")"
+    ;;
+old_library)
+    [ -e "$libraries/libalpenglow.so" ] || exit 0 # a static library is as old as its program
+    for version in 0.0.9 999.0.0; do
+        echo "const char *alp_version(void); const char *alp_version(void) { return \"$version\"; }" |
+            cc -shared -fPIC -xc - -o "$work/$version.so"
+    done
+    for program in "$prefix"/bin/alpenglow*; do
+        ! LD_PRELOAD=$work/0.0.9.so "$program" info builtin:cornell >"$work/out" 2>"$work/error" ||
+            fail "$program accepts an older library"
+        grep -q "^alpenglow: the library libalpenglow is of version 0.0.9, older than this program" \
+            "$work/error" || fail "$program: $(cat "$work/error")"
+        [ "$(wc -l <"$work/error")" = 1 ] || fail "more than one line: $(cat "$work/error")"
+    done
+    LD_PRELOAD=$work/999.0.0.so "$prefix/bin/alpenglow" info builtin:cornell >"$work/out" ||
+        fail "a later library is refused"
     ;;
 readme)
     # shellcheck disable=SC2016 # the backquotes are Markdown

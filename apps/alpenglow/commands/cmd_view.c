@@ -11,8 +11,9 @@ int command_view(const command_line *a)
 {
     static char path[PROGRAM_PATH_SIZE], name[] = "alpenglow-view";
     if (!program_find_beside(".", name, path) && !program_find_on_path(name, path)) {
-        return failure("alpenglow-view is neither beside this program nor on PATH; install "
-                       "libepoxy-dev and libegl-dev, and build with ALP_BUILD_VIEWER=ON");
+        return failure("alpenglow-view is neither beside this program nor on PATH; install the "
+                       "package alpenglow-viewer, or libepoxy-dev and libegl-dev and build with "
+                       "ALP_BUILD_VIEWER=ON");
     }
     char **words = allocate_or_exit(NULL, ((size_t)a->word_count + 2) * sizeof *words);
     words[0] = name;
