@@ -11,7 +11,6 @@ here=$(cd "$(dirname "$0")" && pwd)
 sources=$here/../../..
 command=$1 work=$2
 suite=bookworm # of the packages that the dependencies name
-mirror=http://deb.debian.org/debian
 
 skip() {
     echo "skipped: $*"
@@ -27,9 +26,14 @@ for need in apt-get dh lintian mmdebstrap dpkg-scanpackages; do
     builtin command -v "$need" >/dev/null 2>&1 || skip "there is no $need ('scripts/setup.sh deb')"
 done
 [ "$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)" = $suite ] || skip "this is not Debian $suite"
+# The mirror that this machine installs from.
+# shellcheck disable=SC2016 # apt-get expands the names
+mirror=$(apt-get indextargets --format '$(RELEASE) $(REPO_URI)' 'Created-By: Packages' |
+    sed -n "s/^$suite //p" | head -n 1)
+[ -n "$mirror" ] || skip "apt knows no mirror of Debian $suite"
 mode=unshare # not the modes that imitate chroot
 [ "$(id -u)" != 0 ] || mode=root
-mmdebstrap --quiet --mode=$mode --simulate --variant=essential $suite /dev/null $mirror >/dev/null 2>&1 ||
+mmdebstrap --quiet --mode=$mode --simulate --variant=essential $suite /dev/null "$mirror" >/dev/null 2>&1 ||
     skip "mmdebstrap finds no network, or may make no root"
 
 rm -rf "$work"
@@ -63,5 +67,5 @@ cp "$here/inside.sh" "$sources/tests/consumer/project/consumer.c" \
 "$command" bake builtin:cornell -o "$share/expected.glb" --size 64 --maps ao,light -q
 chmod -R a+rX "$share"
 mmdebstrap --quiet --mode=$mode --variant=apt \
-    --customize-hook="'$here/hook.sh' \"\$1\" '$share'" $suite /dev/null $mirror ||
+    --customize-hook="'$here/hook.sh' \"\$1\" '$share'" $suite /dev/null "$mirror" ||
     fail "the packages do not work in a root of Debian $suite (see above)"
