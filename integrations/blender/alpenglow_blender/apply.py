@@ -1,0 +1,277 @@
+# SPDX-License-Identifier: MIT
+"""Puts a bake onto the objects of the scene: UV map, images, node groups.
+
+The result is read from the .glb that the command wrote: node by `extras.item`, loop by _LOOP."""
+
+import os
+from dataclasses import dataclass
+
+import bpy
+import numpy
+
+from . import export, glb, nodes, surface
+
+
+class ApplyError(Exception):
+    """One object, or the whole result, cannot be applied. The message is for the user."""
+
+
+@dataclass
+class Page:
+    """Maps of the bake: images of Blender, or None. Light is E / pi = intensity x texel."""
+    occlusion: object = None
+    light: object = None
+    intensity: float = 1.0
+
+
+class Result:
+    """What the command wrote."""
+
+    def __init__(self, path):
+        self.reader = glb.Reader(path)
+        self.folder = os.path.dirname(path)
+        self.nodes = {n["extras"]["item"]: n for n in self.reader.elements("nodes")
+                      if "item" in n.get("extras", {}) and "mesh" in n}
+
+    def texture_of(self, material):
+        """(coordinate set, image of occlusion or None, light map or None) of a material."""
+        occlusion = material.get("occlusionTexture")
+        light = material.get("extras", {}).get("lightmap")
+        if occlusion is None and light is None:
+            return None, None, None
+        found = occlusion or light
+        image = None
+        if occlusion is not None:
+            image = self.reader.elements("textures")[occlusion["index"]]["source"]
+        return found.get("texCoord", 0), image, light
+
+    def uvs(self, item, loop_count):
+        """Blender's coordinates [loops][2] of an item."""
+        uvs = numpy.full((loop_count, 2), numpy.nan, numpy.float32)
+        mesh = self.reader.elements("meshes")[self.nodes[item]["mesh"]]
+        for primitive in mesh["primitives"]:
+            material = self.reader.elements("materials")[primitive["material"]]
+            coordinate_set = self.texture_of(material)[0]
+            attributes = primitive["attributes"]
+            if coordinate_set is None or f"TEXCOORD_{coordinate_set}" not in attributes:
+                raise ApplyError("has no map: see the warnings of the command")
+            loops = self.reader.accessor(attributes["_LOOP"]).astype(numpy.uint32)
+            loops = loops @ numpy.array([1, 1 << 8, 1 << 16, 1 << 24], numpy.uint32)
+            found = numpy.array(self.reader.accessor(attributes[f"TEXCOORD_{coordinate_set}"]),
+                                numpy.float32)
+            found[:, 1] = 1 - found[:, 1]
+            uvs[loops] = found
+            if not numpy.array_equal(uvs[loops], found):
+                raise ApplyError("has bent polygons that lie in two charts; add a Triangulate "
+                                 "modifier and bake again")
+        # Loops of polygons without area have no triangle.
+        return numpy.nan_to_num(uvs, nan=0.0)
+
+    def page(self):
+        """The maps of all materials, as packed images."""
+        found = [self.texture_of(m) for m in self.reader.elements("materials")]
+        occlusions = {image for _, image, _ in found if image is not None}
+        lights = {light["uri"]: light for _, _, light in found if light is not None}
+        if not occlusions and not lights:
+            raise ApplyError("the command wrote no map: see its warnings")
+        if len(occlusions) > 1 or len(lights) > 1:
+            raise ApplyError("the bake has several pages, which the add-on does not apply")
+        page = Page()
+        for index in occlusions:
+            path = os.path.join(self.folder, "occlusion.png")
+            with open(path, "wb") as file:
+                image = self.reader.elements("images")[index]
+                file.write(self.reader.view(image["bufferView"]))
+            page.occlusion = packed(path, "occlusion")
+        for uri, light in lights.items():
+            page.light = packed(os.path.join(self.folder, uri), "light")
+            page.light["units"] = light["units"]
+            page.intensity = float(light["intensity"])
+        return page
+
+
+def packed(path, kind):
+    """An image of numbers, packed into the .blend."""
+    image = bpy.data.images.load(path, check_existing=False)
+    image.name = f"Alpenglow {kind}"
+    image.colorspace_settings.name = "Non-Color"
+    image.alpha_mode = "NONE"
+    image[nodes.MARK] = kind
+    image.pack()
+    image.filepath_raw = f"//{image.name}{os.path.splitext(path)[1]}"
+    return image
+
+
+class Applier:
+    def __init__(self, context, items, result):
+        self.context, self.items, self.result = context, items, result
+        self.notes, self.made, self.hidden, self.count = [], {}, set(), 0
+
+    def apply(self):
+        """Applies all items. Objects that cannot take the result cost a note each."""
+        wanted = {i.key: n for n, i in enumerate(self.items) if i.fate != export.KEPT}
+        targets = self.find_own(wanted) + self.make_baked(wanted)
+        if not targets:
+            raise ApplyError("no object took the result: " + "; ".join(self.notes))
+        page = self.result.page()
+        self.remove_replaced()
+        for target, uvs, _ in targets:
+            add_uv_map(target.data, uvs)
+        self.dress([target for target, _, _ in targets], page)
+        self.hide_originals()
+        self.remove_unused()
+        self.count = len(targets)
+
+    def coordinates(self, index):
+        return self.result.uvs(index, self.items[index].loop_count)
+
+    def take(self, index, topology):
+        """The coordinates of an item, or None with a note."""
+        item = self.items[index]
+        if topology != item.topology:
+            self.notes.append(f"{item.name} changed during the bake; bake again")
+            return None
+        try:
+            return self.coordinates(index)
+        except ApplyError as error:
+            self.notes.append(f"{item.name} {error}")
+            return None
+
+    def find_own(self, wanted):
+        """(object, coordinates, index) of objects that take the result themselves."""
+        found = []
+        by_name = {o.name_full: o for o in self.context.view_layer.objects}
+        for key, index in wanted.items():
+            if self.items[index].fate != export.OWN:
+                continue
+            target = by_name.get(key[1])
+            if target is None or target.type != "MESH":
+                self.notes.append(f"{self.items[index].name} was removed during the bake")
+                continue
+            uvs = self.take(index, export.topology_of(target.data))
+            if uvs is None:
+                continue
+            if target.data.users > 1 or target.data.library is not None:
+                target.data = target.data.copy()  # objects that share a mesh have maps of their own
+            found.append((target, uvs, index))
+        return [f for f in found if self.has_room(f)]
+
+    def has_room(self, found):
+        layers = found[0].data.uv_layers
+        if nodes.UV_MAP in layers or len(layers) < 8:
+            return True
+        self.notes.append(f"{found[0].name} has eight UV maps; remove one and bake again")
+        return False
+
+    def make_baked(self, wanted):
+        """(object, coordinates, index) of new objects NAME.baked with evaluated meshes."""
+        depsgraph = self.context.evaluated_depsgraph_get()
+        shapes = []
+        for instance in depsgraph.object_instances:
+            index = wanted.get(export.key_of(instance))
+            if index is None or self.items[index].fate != export.BAKED:
+                continue
+            mesh = bpy.data.meshes.new_from_object(
+                instance.object, preserve_all_data_layers=True, depsgraph=depsgraph)
+            slots = [export.material_of(instance.object, mesh, i)
+                     for i in range(max(len(instance.object.material_slots), len(mesh.materials)))]
+            shown = (instance.parent if instance.is_instance else instance.object).original
+            shapes.append((index, mesh, slots, instance.matrix_world.copy(), shown))
+        found = []
+        for index, mesh, slots, matrix, shown in shapes:
+            uvs = self.take(index, export.topology_of(mesh))
+            if uvs is None:
+                bpy.data.meshes.remove(mesh)
+                continue
+            found.append((self.place(mesh, slots, matrix, shown, self.items[index].name), uvs, index))
+            self.hidden.add(shown)
+        return found
+
+    def place(self, mesh, slots, matrix, shown, name):
+        mesh.materials.clear()
+        for material in slots:
+            mesh.materials.append(material)
+        mesh.name = f"{name}.baked"
+        target = bpy.data.objects.new(f"{name}.baked", mesh)
+        target[export.SOURCE] = shown
+        target.matrix_world = matrix
+        inside = [c for c in shown.users_collection if c.library is None]
+        (inside[0] if inside else self.context.scene.collection).objects.link(target)
+        self.made[target] = shown
+        return target
+
+    def remove_replaced(self):
+        """Removes what an earlier bake made of the same originals, and gives its name to the new."""
+        sources = set(self.made.values())
+        for old in [o for o in bpy.data.objects if o.get(export.SOURCE) in sources
+                    and o not in self.made and o.library is None]:
+            name, mesh = old.name, old.data
+            bpy.data.objects.remove(old)
+            if mesh is not None and mesh.users == 0:
+                bpy.data.meshes.remove(mesh)
+            heir = next((o for o in self.made if o.name.startswith(f"{name}.")), None)
+            if heir is not None:
+                heir.name = name
+
+    def dress(self, targets, page):
+        """Gives materials their nodes. A material that others use too is copied."""
+        baked, copies = set(targets), {}
+        others = {m for o in bpy.data.objects if o not in baked for m in materials_of(o)}
+        for target in targets:
+            if not target.material_slots:
+                target.data.materials.append(None)
+            for slot in target.material_slots:
+                key = slot.material
+                if key not in copies:
+                    copies[key] = self.dressed(key, key in others, page)
+                slot.material = copies[key]
+
+    def dressed(self, material, is_shared, page):
+        if material is None:
+            material = bpy.data.materials.new("Alpenglow")
+            with_nodes(material, surface.BARE)
+        elif is_shared or material.library is not None:
+            material = material.copy()
+            material.name = f"{material.name.rpartition('.')[0] or material.name}.baked"
+        if not material.use_nodes:
+            with_nodes(material, material.diffuse_color[:3])
+        tree = material.node_tree
+        nodes.remove(tree)
+        read, _ = surface.read(material)
+        if tree.get_output_node("ALL") is None:
+            self.notes.append(f"material {material.name} has no output: it shows no map")
+            return material
+        if page.occlusion is not None:
+            nodes.show_occlusion(tree, read, page.occlusion)
+        if page.light is not None and read.is_pane():
+            self.notes.append(f"material {material.name} lets light through: it keeps its look")
+        elif page.light is not None:
+            nodes.show_light(tree, read, page.light, page.intensity)
+        return material
+
+    def hide_originals(self):
+        for shown in self.hidden:
+            shown.hide_render = True
+            shown.hide_set(True)
+
+    def remove_unused(self):
+        """Removes maps of earlier bakes that no material reads any more."""
+        for image in [i for i in bpy.data.images if i.get(nodes.MARK) and i.users == 0]:
+            bpy.data.images.remove(image)
+
+
+def materials_of(o):
+    return {slot.material for slot in o.material_slots if slot.material is not None}
+
+
+def with_nodes(material, colour):
+    material.use_nodes = True
+    for node in material.node_tree.nodes:
+        if node.type == "BSDF_PRINCIPLED":
+            node.inputs["Base Color"].default_value = (*colour, 1.0)
+
+
+def add_uv_map(mesh, uvs):
+    layer = mesh.uv_layers.get(nodes.UV_MAP) or mesh.uv_layers.new(name=nodes.UV_MAP, do_init=False)
+    layer.data.foreach_set("uv", uvs.ravel())
+    mesh.update()
