@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import bpy
 import numpy
 
-from . import export, glb, nodes, surface
+from . import cut, export, glb, nodes, surface
 
 
 class ApplyError(Exception):
@@ -45,27 +45,24 @@ class Result:
             image = self.reader.elements("textures")[occlusion["index"]]["source"]
         return found.get("texCoord", 0), image, light
 
-    def uvs(self, item, loop_count):
-        """Blender's coordinates [loops][2] of an item."""
-        uvs = numpy.full((loop_count, 2), numpy.nan, numpy.float32)
+    def corners(self, item):
+        """(loops [triangles][3], Blender's coordinates [triangles][3][2]) of an item."""
+        loops, places = [], []
         mesh = self.reader.elements("meshes")[self.nodes[item]["mesh"]]
         for primitive in mesh["primitives"]:
             material = self.reader.elements("materials")[primitive["material"]]
-            coordinate_set = self.texture_of(material)[0]
+            name = f"TEXCOORD_{self.texture_of(material)[0]}"
             attributes = primitive["attributes"]
-            if coordinate_set is None or f"TEXCOORD_{coordinate_set}" not in attributes:
+            if name not in attributes:
                 raise ApplyError("has no map: see the warnings of the command")
-            loops = self.reader.accessor(attributes["_LOOP"]).astype(numpy.uint32)
-            loops = loops @ numpy.array([1, 1 << 8, 1 << 16, 1 << 24], numpy.uint32)
-            found = numpy.array(self.reader.accessor(attributes[f"TEXCOORD_{coordinate_set}"]),
-                                numpy.float32)
+            indices = self.reader.accessor(primitive["indices"])[:, 0].astype(numpy.int64)
+            numbers = self.reader.accessor(attributes["_LOOP"]).astype(numpy.int64)
+            numbers = numbers @ numpy.array([1, 1 << 8, 1 << 16, 1 << 24])
+            found = numpy.array(self.reader.accessor(attributes[name]), numpy.float32)
             found[:, 1] = 1 - found[:, 1]
-            uvs[loops] = found
-            if not numpy.array_equal(uvs[loops], found):
-                raise ApplyError("has bent polygons that lie in two charts; add a Triangulate "
-                                 "modifier and bake again")
-        # Loops of polygons without area have no triangle.
-        return numpy.nan_to_num(uvs, nan=0.0)
+            loops.append(numbers[indices].reshape(-1, 3))
+            places.append(found[indices].reshape(-1, 3, 2))
+        return numpy.concatenate(loops), numpy.concatenate(places)
 
     def page(self):
         """The maps of all materials, as packed images."""
@@ -115,30 +112,28 @@ class Applier:
             raise ApplyError("no object took the result: " + "; ".join(self.notes))
         page = self.result.page()
         self.remove_replaced()
-        for target, uvs, _ in targets:
-            add_uv_map(target.data, uvs)
-        self.dress([target for target, _, _ in targets], page)
+        polygons = sum(add_uv_map(target.data, *corners) for target, corners in targets)
+        if polygons:
+            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are edges")
+        self.dress([target for target, _ in targets], page)
         self.hide_originals()
         self.remove_unused()
         self.count = len(targets)
 
-    def coordinates(self, index):
-        return self.result.uvs(index, self.items[index].loop_count)
-
     def take(self, index, topology):
-        """The coordinates of an item, or None with a note."""
+        """Loops and coordinates of the corners of an item, or None with a note."""
         item = self.items[index]
         if topology != item.topology:
             self.notes.append(f"{item.name} changed during the bake; bake again")
             return None
         try:
-            return self.coordinates(index)
+            return self.result.corners(index)
         except ApplyError as error:
             self.notes.append(f"{item.name} {error}")
             return None
 
     def find_own(self, wanted):
-        """(object, coordinates, index) of objects that take the result themselves."""
+        """(object, corners) of objects that take the result themselves."""
         found = []
         by_name = {o.name_full: o for o in self.context.view_layer.objects}
         for key, index in wanted.items():
@@ -148,23 +143,23 @@ class Applier:
             if target is None or target.type != "MESH":
                 self.notes.append(f"{self.items[index].name} was removed during the bake")
                 continue
-            uvs = self.take(index, export.topology_of(target.data))
-            if uvs is None:
+            corners = self.take(index, export.topology_of(target.data))
+            if corners is None or not self.has_room(target):
                 continue
             if target.data.users > 1 or target.data.library is not None:
                 target.data = target.data.copy()  # objects that share a mesh have maps of their own
-            found.append((target, uvs, index))
-        return [f for f in found if self.has_room(f)]
+            found.append((target, corners))
+        return found
 
-    def has_room(self, found):
-        layers = found[0].data.uv_layers
+    def has_room(self, target):
+        layers = target.data.uv_layers
         if nodes.UV_MAP in layers or len(layers) < 8:
             return True
-        self.notes.append(f"{found[0].name} has eight UV maps; remove one and bake again")
+        self.notes.append(f"{target.name} has eight UV maps; remove one and bake again")
         return False
 
     def make_baked(self, wanted):
-        """(object, coordinates, index) of new objects NAME.baked with evaluated meshes."""
+        """(object, corners) of new objects NAME.baked with evaluated meshes."""
         depsgraph = self.context.evaluated_depsgraph_get()
         shapes = []
         for instance in depsgraph.object_instances:
@@ -179,11 +174,11 @@ class Applier:
             shapes.append((index, mesh, slots, instance.matrix_world.copy(), shown))
         found = []
         for index, mesh, slots, matrix, shown in shapes:
-            uvs = self.take(index, export.topology_of(mesh))
-            if uvs is None:
+            corners = self.take(index, export.topology_of(mesh))
+            if corners is None:
                 bpy.data.meshes.remove(mesh)
                 continue
-            found.append((self.place(mesh, slots, matrix, shown, self.items[index].name), uvs, index))
+            found.append((self.place(mesh, slots, matrix, shown, self.items[index].name), corners))
             self.hidden.add(shown)
         return found
 
@@ -271,7 +266,11 @@ def with_nodes(material, colour):
             node.inputs["Base Color"].default_value = (*colour, 1.0)
 
 
-def add_uv_map(mesh, uvs):
+def add_uv_map(mesh, loops, places):
+    """Adds the UV map of a bake. Returns the number of polygons that had to be cut."""
     layer = mesh.uv_layers.get(nodes.UV_MAP) or mesh.uv_layers.new(name=nodes.UV_MAP, do_init=False)
+    uvs = numpy.zeros((len(mesh.loops), 2), numpy.float32)  # polygons without area have no triangle
+    uvs[loops] = places
     layer.data.foreach_set("uv", uvs.ravel())
     mesh.update()
+    return cut.cut(mesh, nodes.UV_MAP, loops, places)

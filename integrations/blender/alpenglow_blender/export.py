@@ -31,7 +31,6 @@ class Item:
     name: str
     fate: str
     topology: int
-    loop_count: int
 
 
 def key_of(instance):
@@ -134,7 +133,7 @@ class Exporter:
         node = {"name": node_name(name, fate), "mesh": self.writer.add("meshes", element),
                 "extras": {"item": len(self.items)}}
         self.add_node(node, instance.matrix_world)
-        self.items.append(Item(key, name, fate, topology_of(mesh), len(mesh.loops)))
+        self.items.append(Item(key, name, fate, topology_of(mesh)))
 
     def add_node(self, node, matrix):
         """Places a node: glTF has Y up and columns first, Blender Z up."""

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# run.sh COMMAND NAME SHARED: test_NAME.py inside Blender, with the add-on installed from its zip.
+# 77 = skipped: no Blender, no numpy, or no shared folder where the test needs it.
+set -euo pipefail
+command=$(realpath "$1")
+name=$2
+export ALPENGLOW_SHARED=${ALPENGLOW_SHARED:-$3}
+here=$(cd "$(dirname "$0")" && pwd)
+
+skip() {
+    echo "$*: skipped ('scripts/setup.sh blender' installs it)"
+    exit 77
+}
+
+[ -x /usr/bin/blender ] || skip "/usr/bin/blender is absent"
+# Blender takes the Python it finds first: the system's is the one that has numpy.
+/usr/bin/python3 -c "import numpy" 2>/dev/null || skip "numpy is absent"
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$here/../../../integrations/blender/make_zip.py" "$folder/alpenglow-blender.zip"
+mkdir "$folder/scripts" "$folder/scripts/addons" "$folder/bin" "$folder/temp"
+ln -s "$command" "$folder/bin/alpenglow"
+export BLENDER_USER_SCRIPTS=$folder/scripts BLENDER_USER_CONFIG=$folder/config
+export ALPENGLOW_TEST_FOLDER=$folder TMPDIR=$folder/temp PYTHONDONTWRITEBYTECODE=1
+status=0
+PATH=$folder/bin:/usr/bin:/bin /usr/bin/blender -b --factory-startup --python-exit-code 3 \
+    --python "$here/test_$name.py" >"$folder/log" 2>&1 || status=$?
+grep -vE '^(Fra:|Saved: |Blender quit|Modules Installed)' "$folder/log" || true
+exit "$status"
