@@ -46,6 +46,8 @@ def shapes(depsgraph, selected_only):
             continue
         if instance.is_instance and instance.object.original.hide_render:
             continue
+        if instance.object.type != instance.object.original.type:
+            continue  # the drawn mesh of a curve, a text or a metaball, which comes by itself too
         if not selected_only or shown.select_get():
             yield instance
 

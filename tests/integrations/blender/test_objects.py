@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""Instances, modifiers, curves, names, linked files: which object takes the result, and whether it is
+the light of its place. A picture by Cycles is compared with the command's (test_values.py)."""
+
+import os
+import sys
+
+import bpy
+import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import support  # noqa: E402
+
+addon = support.install()
+NAME = "Übergröße 椅子"
+
+
+def floor_and_lamp():
+    settings = support.empty_scene()
+    settings.size = 256
+    support.add_mesh("plane", "floor", support.add_material("grey", (0.6, 0.6, 0.6)), size=10)
+    support.add_lamp("POINT", "lamp", 600, (2.5, -2, 5))
+    support.add_camera((4.5, -5.5, 4.5), (0, 0, 0.6))
+    return settings
+
+
+def object_of(name):
+    found = bpy.data.objects.get(name)
+    assert found is not None, f"{name} is not among {bpy.data.objects.keys()}"
+    return found
+
+
+def shows_map(o):
+    return addon.nodes.UV_MAP in o.data.uv_layers and all(
+        any(addon.nodes.is_group(n, addon.nodes.LIGHT) for n in s.material.node_tree.nodes)
+        for s in o.material_slots) and len(o.material_slots) > 0
+
+
+def compare():
+    baked, notes = support.bake_in(support.FOLDER)
+    ours, cycles = support.render_command(baked), support.render_cycles()
+    share = support.close_share(ours, cycles)
+    print(f"{100 * share:.2f} % of pixels within 1/255, mean {cycles.mean():.4f}; {notes}")
+    assert ours.mean() > 0.02 and share >= 0.99
+    return notes
+
+
+def test_instances():
+    floor_and_lamp()
+    first = support.add_mesh("cube", "first", support.add_material("m", (0.8, 0.2, 0.2)), size=1,
+                             location=(-1, 0, 0.5))
+    second = bpy.data.objects.new("second", first.data)
+    second.location, second.scale = (1, 0, 1), (-1, 2, 1)
+    bpy.context.scene.collection.objects.link(second)
+    group = bpy.data.collections.new("group")
+    support.add_mesh("monkey", "inner", support.add_material("n", (0.2, 0.7, 0.2)))
+    inner = object_of("inner")
+    bpy.context.scene.collection.objects.unlink(inner)
+    group.objects.link(inner)
+    for place in ((0, 2, 1), (2.2, 1.5, 1)):
+        empty = bpy.data.objects.new("copy", None)
+        empty.instance_type, empty.instance_collection, empty.location = "COLLECTION", group, place
+        bpy.context.scene.collection.objects.link(empty)
+    compare()
+    assert first.data != second.data, "linked duplicates share one UV map"
+    assert shows_map(first) and shows_map(second)
+    for name in ("copy/inner.baked", "copy.001/inner.baked"):
+        assert shows_map(object_of(name))
+    assert object_of("copy").hide_render and not object_of("copy").visible_get()
+    assert not shows_map(inner) and addon.nodes.UV_MAP not in inner.data.uv_layers
+    assert len(bpy.data.materials["n"].node_tree.nodes) == 2, "the material of the original changed"
+
+
+def test_modifiers():
+    floor_and_lamp()
+    grown = support.add_mesh("cube", NAME, support.add_material("ß", (0.8, 0.3, 0.1)), size=1.4,
+                             location=(-1, 0, 0.8))
+    grown.modifiers.new("more", "SUBSURF").levels = 2
+    bent = support.add_mesh("cylinder", "bent", support.add_material("b", (0.3, 0.4, 0.8)),
+                            radius=0.5, location=(1, 0, 1.2))
+    bend = bent.modifiers.new("bend", "SIMPLE_DEFORM")
+    bend.deform_method, bend.angle, bend.deform_axis = "TWIST", 1.0, "Z"
+    compare()
+    assert shows_map(bent) and bpy.data.objects.get("bent.baked") is None
+    assert len(bent.modifiers) == 1
+    baked = object_of(f"{NAME}.baked")
+    assert shows_map(baked) and len(baked.data.polygons) == 96
+    assert grown.hide_render and not grown.visible_get() and len(grown.modifiers) == 1
+    assert len(grown.data.uv_layers) == 1 and grown.data.materials[0].name == "ß"
+    count = len(bpy.data.objects)
+    compare()  # a second bake takes NAME.baked as it is
+    assert len(bpy.data.objects) == count and shows_map(object_of(f"{NAME}.baked"))
+    grown.hide_render = False
+    grown.hide_set(False)
+    compare()  # the original shows again: it stands for its copy, which is replaced
+    assert len(bpy.data.objects) == count and shows_map(object_of(f"{NAME}.baked"))
+
+
+def test_curves():
+    floor_and_lamp()
+    text = bpy.data.curves.new("text", "FONT")
+    text.body, text.extrude = "Ag", 0.1
+    shown = bpy.data.objects.new("text", text)
+    shown.rotation_euler, shown.location = (1.2, 0, 0.3), (-0.5, 0, 0.2)
+    bpy.context.scene.collection.objects.link(shown)
+    compare()
+    assert shows_map(object_of("text.baked")) and shown.hide_render
+
+
+def test_selected():
+    settings = floor_and_lamp()
+    support.add_mesh("cube", "other", bpy.data.materials["grey"], size=1, location=(0, 0, 0.5))
+    bpy.ops.object.select_all(action="DESELECT")
+    object_of("floor").select_set(True)
+    settings.scope = "SELECTED"
+    support.bake()
+    assert shows_map(object_of("floor")) and not shows_map(object_of("other"))
+    assert object_of("other").material_slots[0].material.name == "grey"
+    assert object_of("floor").material_slots[0].material.name == "grey.baked"
+    bpy.ops.object.select_all(action="DESELECT")
+    try:
+        bpy.ops.alpenglow.bake()
+        raise AssertionError("a bake of nothing")
+    except RuntimeError as error:
+        assert "nothing to bake: select objects" in str(error), error
+
+
+def test_linked():
+    path = os.path.join(support.FOLDER, "library.blend")
+    support.empty_scene()
+    support.add_mesh("cube", "stone", support.add_material("rock", (0.4, 0.4, 0.4)), size=1)
+    bpy.data.libraries.write(path, {object_of("stone")})
+    floor_and_lamp()
+    with bpy.data.libraries.load(path, link=True) as (source, target):
+        target.objects = source.objects
+    stone = target.objects[0]
+    bpy.context.scene.collection.objects.link(stone)
+    group = bpy.data.collections.new("stones")
+    group.objects.link(stone)
+    copy = bpy.data.objects.new("copy", None)
+    copy.instance_type, copy.instance_collection, copy.location = "COLLECTION", group, (2, 0, 0.5)
+    bpy.context.scene.collection.objects.link(copy)
+    mine = bpy.data.objects.new("mine", stone.data)
+    mine.location = (-2, 0, 0.5)
+    bpy.context.scene.collection.objects.link(mine)
+    _, notes = support.bake()
+    assert any(n.startswith("stone is linked from another file: it shades") for n in notes), notes
+    assert shows_map(mine) and mine.data.library is None and shows_map(object_of("copy/stone.baked"))
+    assert mine.data.materials[0].library is None and mine.data.materials[0].name == "rock.baked"
+    assert not shows_map(stone) and stone.visible_get()
+
+
+def test_old_maps():
+    """A bake replaces the maps of the bake before."""
+    settings = floor_and_lamp()
+    settings.what = "BOTH"
+    support.bake()
+    settings.what = "OCCLUSION"
+    support.bake()
+    kinds = [n.label for n in object_of("floor").data.materials[0].node_tree.nodes if n.label]
+    assert kinds == [addon.nodes.OCCLUSION], kinds
+    assert [i.name for i in bpy.data.images if i.get("alpenglow")] == ["Alpenglow occlusion.001"] or \
+        len([i for i in bpy.data.images if i.get("alpenglow")]) == 1, bpy.data.images.keys()
+
+
+def test_cut_normals():
+    """Polygons in two charts are cut; the surface, custom normals and weights stay."""
+    support.empty_scene()
+    support.add_mesh("monkey", "monkey")
+    bpy.ops.object.shade_smooth()
+    mesh = object_of("monkey").data
+    bpy.context.object.vertex_groups.new(name="weight").add(range(20), 0.5, "REPLACE")
+    mesh.use_auto_smooth = True
+    vertices = numpy.array([v.co for v in mesh.vertices])
+    mesh.normals_split_custom_set_from_vertices((vertices + 1e-3).tolist())
+    before = normal_at_corners(mesh)
+    polygons, area = len(mesh.polygons), sum(p.area for p in mesh.polygons)
+    bpy.context.scene.alpenglow.what = "OCCLUSION"
+    _, notes = support.bake()
+    assert any("lie in two charts" in n for n in notes) and len(mesh.polygons) > polygons, notes
+    assert support.close(sum(p.area for p in mesh.polygons), area, 0.01)
+    assert len(mesh.vertices) == len(vertices) and mesh.vertices[3].groups[0].weight == 0.5
+    after = normal_at_corners(mesh)
+    worst = max(min(numpy.abs(n - m).max() for m in before[v]) for v in after for n in after[v])
+    assert worst < 2e-3, f"a normal moved by {worst}"  # Blender keeps custom normals in 16 bits
+
+
+def normal_at_corners(mesh):
+    found = {}
+    normals = addon.export.Loops(mesh).normals
+    for loop, normal in zip(mesh.loops, normals):
+        found.setdefault(loop.vertex_index, []).append(normal)
+    return found
+
+
+support.main(test_instances, test_modifiers, test_curves, test_selected, test_linked, test_old_maps,
+             test_cut_normals)
