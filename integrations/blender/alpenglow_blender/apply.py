@@ -106,6 +106,7 @@ class Applier:
 
     def apply(self):
         """Applies all items. Objects that cannot take the result cost a note each."""
+        self.context.view_layer.update()
         wanted = {i.key: n for n, i in enumerate(self.items) if i.fate != export.KEPT}
         targets = self.find_own(wanted) + self.make_baked(wanted)
         if not targets:
@@ -260,10 +261,15 @@ def materials_of(o):
 
 
 def with_nodes(material, colour):
+    """Gives a material the nodes of what Cycles shows without any: a diffuse colour."""
     material.use_nodes = True
-    for node in material.node_tree.nodes:
-        if node.type == "BSDF_PRINCIPLED":
-            node.inputs["Base Color"].default_value = (*colour, 1.0)
+    tree = material.node_tree
+    tree.nodes.clear()
+    diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    diffuse.inputs["Color"].default_value = (*colour, 1.0)
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    output.location = (300, 0)
+    tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
 
 
 def add_uv_map(mesh, loops, places):

@@ -89,7 +89,10 @@ class Bake:
     def _finish(self, context):
         self.job.check()
         self._lap("bake")
-        self.notes += self.job.warnings
+        self.notes += [self._plain(line) for line in self.job.warnings]
+        if not os.path.isfile(self.out):
+            raise run.CommandError(f"the command ended well and wrote no {os.path.basename(self.out)}; "
+                                   "install alpenglow again")
         if self.kind == "PROBES":
             count = probes.show(context, self.out)
             message = f"{count} probes are in {self.out}"
@@ -112,7 +115,13 @@ class Bake:
     def _fail(self, error):
         if self.job is not None:
             self.job.cancel()
-        self._end(FAILED, str(error))
+        self._end(FAILED, self._plain(str(error)))
+
+    def _plain(self, line):
+        """A line of the command without its own name and that of our file."""
+        if self.folder is not None:
+            line = line.replace(os.path.join(self.folder, "scene.glb") + ": ", "")
+        return line.removeprefix("alpenglow: ")
 
     def _end(self, state, message):
         self.state, self.message = state, message

@@ -15,9 +15,10 @@ A spot lamp has the same I within its cone. A sun of strength S lights a surface
 
 An area lamp of power P and area A emits from its front
 
-    L = P / (pi A)              [W/sr/m2]
+    L = P / (4 A)               [W/sr/m2]
 
-Blender's sources: intern/cycles/blender/light.cpp, intern/cycles/scene/light.cpp."""
+That is pi / 4 of a plate that emits P in all. tests/integrations/blender/test_lamps.py compares each
+formula with a picture by Cycles."""
 
 import math
 
@@ -33,7 +34,7 @@ def intensity_of(power):
 
 def radiance_of(power, area):
     """Radiance [W/sr/m2] of an area lamp of `power` [W] and `area` [m2]."""
-    return power / (math.pi * area)
+    return power / (4 * area)
 
 
 def cone_of(size, blend):

@@ -104,8 +104,8 @@ class Job:
                 self._take_progress(line)
             elif line:
                 self.lines = (self.lines + [line])[-SHOWN_LINES:]
-                if "warning" in line.split(":")[0:3] or " warning: " in line:
-                    self.warnings.append(line)
+                if line.startswith("warning: "):
+                    self.warnings.append(line.removeprefix("warning: "))
 
     def _take_progress(self, line):
         try:
@@ -152,7 +152,7 @@ class Job:
         status = self.process.returncode
         if status == 0:
             return
-        reason = next((l for l in reversed(self.lines) if "error" in l.lower()),
+        reason = next((line for line in reversed(self.lines) if line.startswith("alpenglow: ")),
                       self.lines[-1] if self.lines else "")
         raise CommandError(reason if status > 0 and reason else
                            f"the command {ending(status)}{': ' if reason else ''}{reason}")

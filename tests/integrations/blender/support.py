@@ -131,7 +131,7 @@ def render_command(baked, *options):
     """The same by `alpenglow render --with lightmap`."""
     out = os.path.join(FOLDER, "command.exr")
     render = bpy.context.scene.render
-    subprocess.run(["alpenglow", "render", baked, "-o", out, "-f", "-q", "--with", "lightmap",
+    subprocess.run(["alpenglow", "render", baked, "-o", out, "-f", "-q", *(() if "--with" in options else ("--with", "lightmap")),
                     "--samples", "1", "--camera", "0", "--resolution", f"{render.resolution_x}x{render.resolution_y}",
                     *options], check=True)
     return read_exr(out)
