@@ -54,11 +54,11 @@ class Bake:
         if self.kind == "PROBES":
             self.out = probes.place(context)
             arguments = [path, "probes", scene, "-o", self.out, "-f"] + probes.options(self.settings)
-            arguments += self.exporter.scene_options()
+            arguments += self.exporter.scene_options(self.folder)
         else:
             arguments = [path, "bake", scene, "-o", self.out] + options_of(self.settings)
             if self.settings.bakes_light:
-                arguments += self.exporter.scene_options()
+                arguments += self.exporter.scene_options(self.folder)
             if self.exporter.has_kept_nodes():
                 arguments += ["--only", f"*[!{export.KEPT_END}]"]
         self.notes += self.exporter.notes

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from . import glb, images, lamps, surface
+from . import glb, images, lamps, surface, world
 
 TURN = numpy.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=float)
 SHAPED = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -222,13 +222,12 @@ class Exporter:
     def has_kept_nodes(self):
         return any(n["name"].endswith(KEPT_END) for n in self.writer.document["nodes"] if "mesh" in n)
 
-    def scene_options(self):
-        """Options of the command for suns and sky."""
+    def scene_options(self, folder):
+        """Options of the command for suns and sky. An image of the sky is written into `folder`."""
         suns = [o.data for o in self.context.view_layer.objects
                 if o.type == "LIGHT" and o.visible_get() and not o.hide_render]
-        options = lamps.sun_options(suns)
-        options += lamps.world_options(self.context.scene.world, self.notes)
-        return options
+        sky = world.sky_options(self.context.scene.world, folder, self.notes)
+        return lamps.sun_options(suns) + sky
 
 
 def node_name(name, fate):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Lamps and the world of Blender as glTF and as options of the command.
+"""Lamps of Blender as glTF and as options of the command.
 
 Units are radiometric, as Cycles has them: the strength of an emission is radiance L [W/sr/m2]. The
 command reads 1 candela as 1 W/sr and 1 lux as 1 W/m2, so there is no factor of 683 lm/W.
@@ -90,31 +90,3 @@ def sun_options(lamps):
         return []
     strongest = max(suns, key=lambda lamp: lamp.energy)
     return ["--sun-size", f"{min(math.degrees(strongest.angle), 90):.6g}"]
-
-
-def world_options(world, notes):
-    """Options of the command for the sky: the colour of the world's background x its strength."""
-    if world is None:
-        return []
-    colour = tuple(world.color)
-    if world.use_nodes:
-        colour = background_colour(world, notes)
-    if max(colour) <= 0:
-        return []
-    return ["--sky", ",".join(f"{max(0.0, c):.9g}" for c in colour)]
-
-
-def background_colour(world, notes):
-    output = world.node_tree.get_output_node("ALL")
-    links = output.inputs["Surface"].links if output else ()
-    if not links:
-        return (0.0, 0.0, 0.0)
-    node = links[0].from_node
-    if node.type != "BACKGROUND":
-        notes.append(f"world {world.name}: {node.name} is not read; the sky is black")
-        return (0.0, 0.0, 0.0)
-    colour, strength = node.inputs["Color"], node.inputs["Strength"]
-    if colour.links or strength.links:
-        notes.append(f"world {world.name}: nodes before {node.name} are not read; the sky has the "
-                     "colour and the strength that stand behind the links")
-    return tuple(c * strength.default_value for c in colour.default_value[:3])

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run.sh COMMAND NAME SHARED: test_NAME.py inside Blender, with the add-on installed from its zip.
-# 77 = skipped: no Blender, no numpy, or no shared folder where the test needs it.
+# 77 = skipped: no Blender, no numpy, no virtual screen, or no shared folder where the test needs it.
 set -euo pipefail
 command=$(realpath "$1")
 name=$2
@@ -24,8 +24,14 @@ mkdir "$folder/scripts" "$folder/scripts/addons" "$folder/bin" "$folder/temp"
 ln -s "$command" "$folder/bin/alpenglow"
 export BLENDER_USER_SCRIPTS=$folder/scripts BLENDER_USER_CONFIG=$folder/config
 export ALPENGLOW_TEST_FOLDER=$folder TMPDIR=$folder/temp PYTHONDONTWRITEBYTECODE=1
+blender=(/usr/bin/blender -b)
+if [ "$name" = window ]; then # drawn by the processor, into the memory of a virtual screen
+    command -v xvfb-run >/dev/null || skip "xvfb-run is absent"
+    export LIBGL_ALWAYS_SOFTWARE=1
+    blender=(xvfb-run -a -s "-screen 0 1280x800x24" /usr/bin/blender)
+fi
 status=0
-PATH=$folder/bin:/usr/bin:/bin /usr/bin/blender -b --factory-startup --python-exit-code 3 \
+PATH=$folder/bin:/usr/bin:/bin "${blender[@]}" --factory-startup --python-exit-code 3 \
     --python "$here/test_$name.py" >"$folder/log" 2>&1 || status=$?
 grep -vE '^(Fra:|Saved: |Blender quit|Modules Installed)' "$folder/log" || true
 exit "$status"

@@ -103,7 +103,7 @@ def bake_in(folder):
     exporter = addon.export.Exporter(bpy.context, False)
     scene, out = os.path.join(folder, "scene.glb"), os.path.join(folder, "baked.glb")
     exporter.write(scene)
-    options = addon.bake.options_of(bpy.context.scene.alpenglow) + exporter.scene_options()
+    options = addon.bake.options_of(bpy.context.scene.alpenglow) + exporter.scene_options(folder)
     subprocess.run(["alpenglow", "bake", scene, "-o", out, "-f", "-q"] + options, check=True)
     applier = addon.apply.Applier(bpy.context, exporter.items, addon.apply.Result(out))
     applier.apply()

@@ -126,6 +126,34 @@ def test_world():
     check("world", shown, math.pi * 0.6)
 
 
+def test_picture():
+    """A sky with one bright patch lights planes that face four ways as in Cycles."""
+    sky = bpy.data.images.new("sky", 64, 32, float_buffer=True)
+    pixels = numpy.full((32, 64, 4), 0.1, numpy.float32)
+    pixels[18:22, 40:46, :3] = 20.0
+    sky.pixels.foreach_set(pixels.ravel())
+    sky.filepath_raw, sky.file_format = os.path.join(support.FOLDER, "sky.hdr"), "HDR"
+    sky.save()
+    for turn in range(4):
+        shown = plane()
+        world = bpy.data.worlds.new("World")
+        world.use_nodes = True
+        node = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+        node.image = bpy.data.images.load(os.path.join(support.FOLDER, "sky.hdr"))
+        background = world.node_tree.nodes["Background"]
+        world.node_tree.links.new(node.outputs["Color"], background.inputs["Color"])
+        background.inputs["Strength"].default_value = 1.5
+        bpy.context.scene.world = world
+        pivot = bpy.data.objects.new("pivot", None)
+        bpy.context.scene.collection.objects.link(pivot)
+        for o in (shown, bpy.context.scene.camera):
+            o.parent = pivot
+        pivot.rotation_euler = (0, math.radians(80), math.radians(90 * turn + 20))
+        cycles, ours = irradiance_by_cycles(), irradiance_of_bake(shown)
+        print(f"sky, {90 * turn} degrees: Cycles {cycles:.4f}, bake {ours:.4f}")
+        assert support.close(cycles, ours, 0.03)  # of it .01 is Cycles' noise, .01 RGBE
+
+
 def test_file():
     """Axes and lamps of the written .glb: Blender's +Z is glTF's +Y, a lamp shines along -Z."""
     plane()
@@ -147,4 +175,4 @@ def test_file():
 
 
 support.main(test_formulas, test_point, test_spot, test_sun, test_area, test_scaled_area, test_world,
-             test_file)
+             test_picture, test_file)
