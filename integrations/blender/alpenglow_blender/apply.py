@@ -90,7 +90,7 @@ class Result:
 def packed(path, kind):
     """An image of numbers, packed into the .blend."""
     image = bpy.data.images.load(path, check_existing=False)
-    image.name = f"Alpenglow {kind}"
+    image.name = name_of_map(kind)
     image.colorspace_settings.name = "Non-Color"
     image.alpha_mode = "NONE"
     image[nodes.MARK] = kind
@@ -118,7 +118,7 @@ class Applier:
             self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are edges")
         self.dress([target for target, _ in targets], page)
         self.hide_originals()
-        self.remove_unused()
+        remove_unused(page)
         self.count = len(targets)
 
     def take(self, index, topology):
@@ -181,14 +181,26 @@ class Applier:
                 continue
             found.append((self.place(mesh, slots, matrix, shown, self.items[index].name), corners))
             self.hidden.add(shown)
+        self.place_lamps(depsgraph)
         return found
+
+    def place_lamps(self, depsgraph):
+        """Lamps of instancers come back too: the next bake needs them."""
+        lamps = [(i.parent.original, i.object.original, i.matrix_world.copy())
+                 for i in depsgraph.object_instances if i.is_instance and i.object.type == "LIGHT"
+                 and i.parent.original in self.hidden]
+        for shown, lamp, matrix in lamps:
+            self.place_object(lamp.data, matrix, shown, f"{shown.name}/{lamp.name}")
 
     def place(self, mesh, slots, matrix, shown, name):
         mesh.materials.clear()
         for material in slots:
             mesh.materials.append(material)
         mesh.name = f"{name}.baked"
-        target = bpy.data.objects.new(f"{name}.baked", mesh)
+        return self.place_object(mesh, matrix, shown, name)
+
+    def place_object(self, data, matrix, shown, name):
+        target = bpy.data.objects.new(f"{name}.baked", data)
         target[export.SOURCE] = shown
         target.matrix_world = matrix
         inside = [c for c in shown.users_collection if c.library is None]
@@ -201,10 +213,10 @@ class Applier:
         sources = set(self.made.values())
         for old in [o for o in bpy.data.objects if o.get(export.SOURCE) in sources
                     and o not in self.made and o.library is None]:
-            name, mesh = old.name, old.data
+            name, data = old.name, old.data
             bpy.data.objects.remove(old)
-            if mesh is not None and mesh.users == 0:
-                bpy.data.meshes.remove(mesh)
+            if isinstance(data, bpy.types.Mesh) and data.users == 0:
+                bpy.data.meshes.remove(data)
             heir = next((o for o in self.made if o.name.startswith(f"{name}.")), None)
             if heir is not None:
                 heir.name = name
@@ -250,10 +262,18 @@ class Applier:
             shown.hide_render = True
             shown.hide_set(True)
 
-    def remove_unused(self):
-        """Removes maps of earlier bakes that no material reads any more."""
-        for image in [i for i in bpy.data.images if i.get(nodes.MARK) and i.users == 0]:
-            bpy.data.images.remove(image)
+
+def remove_unused(page):
+    """Removes maps of earlier bakes that no material reads any more."""
+    for image in [i for i in bpy.data.images if i.get(nodes.MARK) and i.users == 0]:
+        bpy.data.images.remove(image)
+    for image in (page.occlusion, page.light):
+        if image is not None:
+            image.name = name_of_map(image[nodes.MARK])
+
+
+def name_of_map(kind):
+    return f"Alpenglow {kind}"
 
 
 def materials_of(o):

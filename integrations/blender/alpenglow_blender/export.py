@@ -94,24 +94,26 @@ class Exporter:
         self.context, self.selected_only = context, selected_only
         self.depsgraph = context.evaluated_depsgraph_get()
         self.writer, self.items, self.notes = glb.Writer(), [], []
-        self.materials, self.textures = {}, {}
+        self.materials, self.textures, self.suns = {}, {}, []
 
     def write(self, path):
-        self.add_shapes()
+        replaced = replaced_names(self.context)
+        self.add_shapes(replaced)
         if not any(item.fate != KEPT for item in self.items):
             raise ExportError("nothing to bake: " + (
                 "select objects with a surface, or bake what is visible" if self.selected_only
                 else "no visible object of this file has a surface"))
-        for o in self.context.view_layer.objects:
-            if o.type == "LIGHT" and o.visible_get() and not o.hide_render:
-                self.add_lamp(o.evaluated_get(self.depsgraph))
+        for instance in self.depsgraph.object_instances:
+            shown = instance.parent if instance.is_instance else instance.object
+            if instance.object.type == "LIGHT" and instance.show_self and \
+                    not shown.original.hide_render and shown.name_full not in replaced:
+                self.add_lamp(instance.object, instance.matrix_world)
         self.add_camera(self.context.scene.camera)
         self.writer.write(path)
         self.notes = list(dict.fromkeys(self.notes))
 
-    def add_shapes(self):
+    def add_shapes(self, replaced):
         instancers = {i.parent.name_full for i in self.depsgraph.object_instances if i.is_instance}
-        replaced = replaced_names(self.context)
         for instance in shapes(self.depsgraph, self.selected_only):
             if instance.object.name_full in replaced and not instance.is_instance:
                 continue
@@ -173,23 +175,25 @@ class Exporter:
                                    read.emission.uv_map)
         return self.materials[key]
 
-    def add_lamp(self, shown):
+    def add_lamp(self, shown, matrix):
         lamp = shown.data
+        if lamp.type == "SUN":
+            self.suns.append((lamp.energy, lamp.angle))
         if lamp.type == "AREA":
-            self.add_area_lamp(shown)
+            self.add_area_lamp(shown, matrix)
             return
         self.writer.use("KHR_lights_punctual")
         extensions = self.writer.document.setdefault("extensions", {})
         lights = extensions.setdefault("KHR_lights_punctual", {"lights": []})["lights"]
         lights.append(lamps.punctual(lamp, self.notes))
         reference = {"KHR_lights_punctual": {"light": len(lights) - 1}}
-        self.add_node({"name": shown.name, "extensions": reference}, shown.matrix_world)
+        self.add_node({"name": shown.name, "extensions": reference}, matrix)
 
-    def add_area_lamp(self, shown):
+    def add_area_lamp(self, shown, matrix):
         """An area lamp is a plate that emits from its front."""
         lamp = shown.data
         corners = lamps.outline_of(lamp)
-        area = lamps.world_area(corners, shown.matrix_world)
+        area = lamps.world_area(corners, matrix)
         if area <= 0 or lamp.energy <= 0 or max(lamp.color) <= 0:
             return
         fan = numpy.array([(0, i, i + 1) for i in range(1, len(corners) - 1)], numpy.uint32)
@@ -203,7 +207,7 @@ class Exporter:
                      "indices": add(fan.ravel(), "SCALAR", glb.ELEMENT_ARRAY_BUFFER),
                      "material": self.writer.add("materials", element)}
         mesh = self.writer.add("meshes", {"name": shown.name, "primitives": [primitive]})
-        self.add_node({"name": node_name(shown.name, KEPT), "mesh": mesh}, shown.matrix_world)
+        self.add_node({"name": node_name(shown.name, KEPT), "mesh": mesh}, matrix)
 
     def add_camera(self, shown):
         if shown is None or shown.data.type != "PERSP":
@@ -224,10 +228,8 @@ class Exporter:
 
     def scene_options(self, folder):
         """Options of the command for suns and sky. An image of the sky is written into `folder`."""
-        suns = [o.data for o in self.context.view_layer.objects
-                if o.type == "LIGHT" and o.visible_get() and not o.hide_render]
         sky = world.sky_options(self.context.scene.world, folder, self.notes)
-        return lamps.sun_options(suns) + sky
+        return lamps.sun_options(self.suns) + sky
 
 
 def node_name(name, fate):

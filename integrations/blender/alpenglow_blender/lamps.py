@@ -83,10 +83,10 @@ def world_area(corners, matrix):
                                        zip(placed, numpy.roll(placed, -1, axis=0)))) / 2)
 
 
-def sun_options(lamps):
-    """Options of the command for the angle of the suns: that of the strongest."""
-    suns = [lamp for lamp in lamps if lamp.type == "SUN" and lamp.energy > 0]
+def sun_options(suns):
+    """Options of the command for the angle of all suns: that of the strongest. suns: pairs of
+    strength [W/m2] and angle [radians]."""
     if not suns:
         return []
-    strongest = max(suns, key=lambda lamp: lamp.energy)
-    return ["--sun-size", f"{min(math.degrees(strongest.angle), 90):.6g}"]
+    _, angle = max(suns)
+    return ["--sun-size", f"{min(math.degrees(angle), 90):.6g}"]
