@@ -83,7 +83,7 @@ def steps():
         window.event_simulate(type=kind, value=value, **at)
         yield
     settings = bpy.context.scene.alpenglow
-    settings.what, settings.quality, settings.size = "LIGHT", "PREVIEW", 1024
+    settings.what, settings.quality, settings.size = "LIGHT", "MEDIUM", 1024
     with bpy.context.temp_override(window=window, area=area):
         bpy.ops.alpenglow.bake("INVOKE_DEFAULT", True)
     current = sys.modules["alpenglow_blender.bake"].Current

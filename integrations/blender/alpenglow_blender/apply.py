@@ -167,8 +167,10 @@ class Applier:
             index = wanted.get(export.key_of(instance))
             if index is None or self.items[index].fate != export.BAKED:
                 continue
+            # With all layers Blender evaluates the object again, which instances of nodes are not.
             mesh = bpy.data.meshes.new_from_object(
-                instance.object, preserve_all_data_layers=True, depsgraph=depsgraph)
+                instance.object, preserve_all_data_layers=not instance.is_instance,
+                depsgraph=depsgraph)
             slots = [export.material_of(instance.object, mesh, i)
                      for i in range(max(len(instance.object.material_slots), len(mesh.materials)))]
             shown = (instance.parent if instance.is_instance else instance.object).original

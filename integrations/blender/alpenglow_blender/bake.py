@@ -100,10 +100,10 @@ class Bake:
             applier = apply.Applier(context, self.exporter.items, apply.Result(self.out))
             applier.apply()
             self.notes += applier.notes
-            message = f"{applier.count} objects show the bake"
+            message = f"{applier.count} objects are baked"
         self._lap("apply")
-        self._end(DONE, message + ", after " +
-                  ", ".join(f"{v:.1f} s of {k}" for k, v in self.seconds.items()))
+        seconds = ", ".join(f"{name} {value:.1f} s" for name, value in self.seconds.items())
+        self._end(DONE, f"{message} ({seconds})")
 
     def cancel(self):
         """Ends the command. The scene is as it was."""
@@ -168,7 +168,10 @@ class ALPENGLOW_OT_bake(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT" and Current.bake is None
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Leave this mode first: a bake needs Object Mode")
+            return False
+        return Current.bake is None
 
     def execute(self, context):
         bake = Bake(context, context.scene.alpenglow, command_of(context))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Settings of a bake, and the panel in the sidebar of the 3D view."""
 
+import textwrap
+
 import bpy
 
 from .bake import Current
@@ -62,6 +64,8 @@ class ALPENGLOW_PT_panel(bpy.types.Panel):
             layout.operator("alpenglow.cancel", icon="CANCEL")
         else:
             layout.operator("alpenglow.bake", icon="LIGHT")
-        for line in [Current.message] + Current.notes:
-            if line:
-                layout.label(text=line)
+        letters = max(20, int(context.region.width / (7 * context.preferences.system.ui_scale)) - 3)
+        column = layout.column(align=True)
+        for message in [Current.message] + Current.notes:
+            for line in textwrap.wrap(message, letters):
+                column.label(text=line)

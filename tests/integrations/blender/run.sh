@@ -34,4 +34,12 @@ status=0
 PATH=$folder/bin:/usr/bin:/bin "${blender[@]}" --factory-startup --python-exit-code 3 \
     --python "$here/test_$name.py" >"$folder/log" 2>&1 || status=$?
 grep -vE '^(Fra:|Saved: |Blender quit|Modules Installed)' "$folder/log" || true
+if [ -f "$folder/child.pid" ] && kill -0 "$(cat "$folder/child.pid")" 2>/dev/null; then
+    echo "FAILED: the command runs on after Blender has quit"
+    status=1
+fi
+if [ "$name" = window ] && [ ! -f "$folder/child.pid" ]; then
+    echo "FAILED: the test did not come to its end"
+    status=1
+fi
 exit "$status"

@@ -80,6 +80,49 @@ def test_instances():
         assert file.read().count(b'"name":"inner lamp","color"') == 2, "lamps of hidden instancers"
 
 
+def scatter(kind):
+    """A small grid that shows a ball at each vertex, or on each face by particles."""
+    grid = support.add_mesh("grid", "grid", support.add_material("g", (0.3, 0.3, 0.6)), size=3,
+                            x_subdivisions=2, y_subdivisions=2, location=(0, 0, 0.6))
+    ball = support.add_mesh("ico_sphere", "ball", support.add_material("r", (0.7, 0.2, 0.2)),
+                            radius=0.3, location=(0, 0, 20))
+    if kind == "vertices":
+        ball.parent, grid.instance_type = grid, "VERTS"
+        ball.location = (0, 0, 0)
+        return grid
+    if kind == "particles":
+        grid.modifiers.new("particles", "PARTICLE_SYSTEM")
+        settings = grid.particle_systems[0].settings
+        settings.type, settings.count, settings.render_type = "HAIR", 5, "OBJECT"
+        settings.instance_object, settings.particle_size, settings.use_advanced_hair = ball, 1, True
+        return grid
+    tree = bpy.data.node_groups.new("scatter", "GeometryNodeTree")
+    addon.nodes.add_socket(tree, "INPUT", "NodeSocketGeometry", "Geometry")
+    addon.nodes.add_socket(tree, "OUTPUT", "NodeSocketGeometry", "Geometry")
+    given, result = addon.nodes.ends(tree)
+    place, cube = (tree.nodes.new(f"GeometryNode{n}") for n in ("InstanceOnPoints", "MeshCube"))
+    cube.inputs["Size"].default_value = (0.4, 0.4, 0.4)
+    tree.links.new(given[0], place.inputs["Points"])
+    tree.links.new(cube.outputs[0], place.inputs["Instance"])
+    tree.links.new(place.outputs[0], result[0])
+    grid.modifiers.new("scatter", "NODES").node_group = tree
+    return grid
+
+
+def test_scatter():
+    for kind, count in (("vertices", 9), ("nodes", 9), ("particles", 5)):
+        floor_and_lamp()
+        grid = scatter(kind)
+        compare()
+        made = [o for o in bpy.data.objects if o.name.startswith("grid") and o != grid
+                and not o.name.startswith("grid.baked")]
+        if kind == "nodes":  # their instances have no name but the grid's
+            made = [o for o in bpy.data.objects if o.name.startswith("grid.baked")]
+        print(f"{kind}: {len(made)} instances")
+        assert len(made) == count and all(shows_map(o) for o in made), [o.name for o in made]
+        assert grid.hide_render and not grid.visible_get()
+
+
 def test_modifiers():
     floor_and_lamp()
     grown = support.add_mesh("cube", NAME, support.add_material("ß", (0.8, 0.3, 0.1)), size=1.4,
@@ -149,6 +192,9 @@ def test_linked():
     copy = bpy.data.objects.new("copy", None)
     copy.instance_type, copy.instance_collection, copy.location = "COLLECTION", group, (2, 0, 0.5)
     bpy.context.scene.collection.objects.link(copy)
+    override = stone.override_create()
+    override.name, override.location = "override", (0, 2, 0.5)
+    bpy.context.scene.collection.objects.link(override)
     mine = bpy.data.objects.new("mine", stone.data)
     mine.location = (-2, 0, 0.5)
     bpy.context.scene.collection.objects.link(mine)
@@ -156,7 +202,8 @@ def test_linked():
     assert any(n.startswith("stone is linked from another file: it shades") for n in notes), notes
     assert shows_map(mine) and mine.data.library is None and shows_map(object_of("copy/stone.baked"))
     assert mine.data.materials[0].library is None and mine.data.materials[0].name == "rock.baked"
-    assert not shows_map(stone) and stone.visible_get()
+    assert any(n.startswith("override is linked from another file") for n in notes), notes
+    assert not shows_map(stone) and stone.visible_get() and not shows_map(override)
 
 
 def test_old_maps():
@@ -203,5 +250,5 @@ def normal_at_corners(mesh):
     return found
 
 
-support.main(test_instances, test_modifiers, test_curves, test_selected, test_linked, test_old_maps,
+support.main(test_instances, test_scatter, test_modifiers, test_curves, test_selected, test_linked, test_old_maps,
              test_cut_normals)

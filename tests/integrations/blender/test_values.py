@@ -73,4 +73,30 @@ def test_textures():
     assert share >= 0.99
 
 
-support.main(test_light, test_textures)
+def test_mask():
+    """A leaf whose texture cuts it: what lies behind shows through."""
+    room()
+    leaf = support.add_material("leaf", (1, 1, 1))
+    image = bpy.data.images.new("leaf", 64, 64, alpha=True)
+    y, x = numpy.mgrid[0:64, 0:64] - 31.5
+    pixels = numpy.ones((64, 64, 4), numpy.float32) * (0.2, 0.6, 0.1, 1)
+    pixels[..., 3] = numpy.hypot(x, y) < 24
+    image.pixels.foreach_set(numpy.float32(pixels).ravel())
+    tree = leaf.node_tree
+    node, step = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeMath")
+    node.image, step.operation = image, "GREATER_THAN"
+    step.inputs[1].default_value = 0.5
+    principled = tree.nodes["Principled BSDF"]
+    tree.links.new(node.outputs["Color"], principled.inputs["Base Color"])
+    tree.links.new(node.outputs["Alpha"], step.inputs[0])
+    tree.links.new(step.outputs[0], principled.inputs["Alpha"])
+    leaf.blend_method, leaf.alpha_threshold = "CLIP", 0.5
+    support.add_mesh("plane", "leaf", leaf, size=1.6, location=(1.0, -1.4, 2),
+                     rotation=(1.2, 0, 0.7))
+    baked, notes = support.bake_in(support.FOLDER)
+    share = support.close_share(support.render_command(baked), support.render_cycles())
+    print(f"mask: {100 * share:.2f} % of pixels within 1/255; {notes}")
+    assert share >= 0.99
+
+
+support.main(test_light, test_textures, test_mask)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The button in a window: Blender draws into a virtual screen, the bake runs behind the window, Cancel
-ends it, and one step of undo takes a finished bake back."""
+ends it, one step of undo takes a finished bake back, and the command ends with Blender."""
 
 import os
 import sys
@@ -75,6 +75,16 @@ def test():
     yield
     assert support.state_of_scene() == before, support.state_of_scene()
     print("ok bake and undo", flush=True)
+
+    settings = bpy.context.scene.alpenglow
+    settings.size, settings.error = 512, 0.05
+    assert press(bpy.ops.alpenglow.bake) == {"RUNNING_MODAL"}
+    yield
+    with open(os.path.join(support.FOLDER, "child.pid"), "w", encoding="utf-8") as file:
+        file.write(str(Current.bake.job.process.pid))
+    with in_view():
+        bpy.ops.wm.quit_blender()  # run.sh sees whether the command ends with it
+    yield
 
 
 steps = test()
