@@ -106,12 +106,13 @@ class Applier:
 
     def apply(self):
         """Applies all items. Objects that cannot take the result cost a note each."""
+        page = self.result.page()
         self.context.view_layer.update()
         wanted = {i.key: n for n, i in enumerate(self.items) if i.fate != export.KEPT}
         targets = self.find_own(wanted) + self.make_baked(wanted)
         if not targets:
+            remove_unused(Page())
             raise ApplyError("no object took the result: " + "; ".join(self.notes))
-        page = self.result.page()
         self.remove_replaced()
         polygons = sum(add_uv_map(target.data, *corners) for target, corners in targets)
         if polygons:

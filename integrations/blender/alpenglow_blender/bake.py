@@ -5,6 +5,7 @@ import os
 import shutil
 import tempfile
 import time
+import traceback
 
 import bpy
 
@@ -35,33 +36,32 @@ class Bake:
 
     def __init__(self, context, settings, command):
         self.state, self.message, self.notes, self.seconds = RUNNING, "", [], {}
-        self.settings, self.command = settings, command
-        self.kind = settings.what
-        self.folder, self.job, self.exporter = None, None, None
+        self.kind, self.folder, self.job, self.items = settings.what, None, None, []
+        self.is_touched = False  # a failed bake left something behind in the scene
         self.began = time.monotonic()
         try:
-            self._start(context)
-        except FAULTS as error:
+            self._start(context, settings, command)
+        except Exception as error:  # pylint: disable=broad-except
             self._fail(error)
 
-    def _start(self, context):
-        path, _ = run.check_command(self.command)
+    def _start(self, context, settings, command):
+        path, _ = run.check_command(command)
         self.folder = tempfile.mkdtemp(prefix="alpenglow-")
-        self.exporter = export.Exporter(context, self.settings.scope == "SELECTED")
+        exporter = export.Exporter(context, settings.scope == "SELECTED")
         scene = os.path.join(self.folder, "scene.glb")
-        self.exporter.write(scene)
+        exporter.write(scene)
         self.out = os.path.join(self.folder, "baked.glb")
         if self.kind == "PROBES":
             self.out = probes.place(context)
-            arguments = [path, "probes", scene, "-o", self.out, "-f"] + probes.options(self.settings)
-            arguments += self.exporter.scene_options(self.folder)
+            arguments = [path, "probes", scene, "-o", self.out, "-f"] + probes.options(settings)
+            arguments += exporter.scene_options(self.folder)
         else:
-            arguments = [path, "bake", scene, "-o", self.out] + options_of(self.settings)
-            if self.settings.bakes_light:
-                arguments += self.exporter.scene_options(self.folder)
-            if self.exporter.has_kept_nodes():
+            arguments = [path, "bake", scene, "-o", self.out] + options_of(settings)
+            if settings.bakes_light:
+                arguments += exporter.scene_options(self.folder)
+            if exporter.has_kept_nodes():
                 arguments += ["--only", f"*[!{export.KEPT_END}]"]
-        self.notes += self.exporter.notes
+        self.items, self.notes = exporter.items, exporter.notes
         self._lap("export")
         self.job = run.Job(arguments + ["--progress", "json"])
 
@@ -74,7 +74,7 @@ class Bake:
         if self.state == RUNNING and self.job.poll():
             try:
                 self._finish(context)
-            except FAULTS as error:
+            except Exception as error:  # pylint: disable=broad-except
                 self._fail(error)
         return self.state
 
@@ -97,7 +97,7 @@ class Bake:
             count = probes.show(context, self.out)
             message = f"{count} probes are in {self.out}"
         else:
-            applier = apply.Applier(context, self.exporter.items, apply.Result(self.out))
+            applier = apply.Applier(context, self.items, apply.Result(self.out))
             applier.apply()
             self.notes += applier.notes
             message = f"{applier.count} objects are baked"
@@ -115,7 +115,13 @@ class Bake:
     def _fail(self, error):
         if self.job is not None:
             self.job.cancel()
-        self._end(FAILED, self._plain(str(error)))
+        if isinstance(error, FAULTS):
+            self._end(FAILED, self._plain(str(error)))
+            return
+        traceback.print_exception(type(error), error, error.__traceback__)
+        self.is_touched = self.job is not None
+        self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, and "
+                          "report what the console says")
 
     def _plain(self, line):
         """A line of the command without its own name and that of our file."""
@@ -145,7 +151,7 @@ def report(operator, bake):
         operator.report({"INFO"}, bake.message)
         return {"FINISHED"}
     operator.report({"ERROR" if bake.state == FAILED else "WARNING"}, bake.message)
-    return {"CANCELLED"}
+    return {"FINISHED" if bake.is_touched else "CANCELLED"}  # what is finished can be undone
 
 
 def command_of(context):

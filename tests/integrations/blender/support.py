@@ -32,7 +32,8 @@ def empty_scene():
             if element.name != "Render Result":
                 collection.remove(element)
     settings = bpy.context.scene.alpenglow
-    settings.what, settings.scope, settings.quality, settings.size = "LIGHT", "VISIBLE", "PREVIEW", 64
+    settings.what, settings.scope, settings.size = "LIGHT", "VISIBLE", 64
+    settings.stop, settings.quality = "QUALITY", "PREVIEW"
     return settings
 
 

@@ -142,5 +142,20 @@ def test_changed_scene():
     assert "Alpenglow" in bpy.data.objects["floor"].data.uv_layers
 
 
+def test_fault_of_ours():
+    """An error that nobody expected ends the bake, and leaves a step to undo."""
+    scene().size = 64
+    whole = addon.nodes.show_light
+    addon.nodes.show_light = None
+    try:
+        bpy.ops.alpenglow.bake()
+        raise AssertionError("no error")
+    except RuntimeError as error:
+        assert "the add-on failed: TypeError: " in str(error) and "undo this step" in str(error)
+    finally:
+        addon.nodes.show_light = whole
+    assert not left_over() and addon.bake.Current.bake is None
+
+
 support.main(test_broken_installs, test_failing_bakes, test_cancel, test_deaf_child, test_interrupt,
-             test_changed_scene)
+             test_changed_scene, test_fault_of_ours)
