@@ -116,7 +116,8 @@ class Applier:
         self.remove_replaced()
         polygons = sum(add_uv_map(target.data, *corners) for target, corners in targets)
         if polygons:
-            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are edges")
+            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are "
+                              "edges")
         self.dress([target for target, _ in targets], page)
         self.hide_originals()
         remove_unused(page)
@@ -212,7 +213,7 @@ class Applier:
         return target
 
     def remove_replaced(self):
-        """Removes what an earlier bake made of the same originals, and gives its name to the new."""
+        """Removes what an earlier bake made of the same originals. The new get its names."""
         sources = set(self.made.values())
         for old in [o for o in bpy.data.objects if o.get(export.SOURCE) in sources
                     and o not in self.made and o.library is None]:

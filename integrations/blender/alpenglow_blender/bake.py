@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A bake from the scene to the result: export, command, apply. It touches the scene only at its end."""
+"""A bake from scene to result: export, command, apply. It touches the scene only at its end."""
 
 import os
 import shutil
@@ -91,8 +91,9 @@ class Bake:
         self._lap("bake")
         self.notes += [self._plain(line) for line in self.job.warnings]
         if not os.path.isfile(self.out):
-            raise run.CommandError(f"the command ended well and wrote no {os.path.basename(self.out)}; "
-                                   "install alpenglow again")
+            name = os.path.basename(self.out)
+            raise run.CommandError(f"the command ended well and wrote no {name}; install alpenglow "
+                                   "again")
         if self.kind == "PROBES":
             count = probes.show(context, self.out)
             message = f"{count} probes are in {self.out}"
@@ -120,8 +121,8 @@ class Bake:
             return
         traceback.print_exception(type(error), error, error.__traceback__)
         self.is_touched = self.job is not None
-        self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, and "
-                          "report what the console says")
+        self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, "
+                          "and report what the console says")
 
     def _plain(self, line):
         """A line of the command without its own name and that of our file."""

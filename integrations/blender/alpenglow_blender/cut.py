@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Cuts polygons that lie in two charts of the atlas into the triangles that Blender draws.
 
-A loop of a mesh has one coordinate in a UV map. A chart border along a diagonal needs two. The cut adds
-the diagonals as edges: the surface, its normals and all other layers stay."""
+A loop of a mesh has one coordinate in a UV map. A chart border along a diagonal needs two. The cut
+adds the diagonals as edges. The surface, its normals and all other layers stay."""
 
 import bmesh
 import numpy

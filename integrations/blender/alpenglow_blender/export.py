@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Writes what is selected or visible as a .glb that the command bakes.
 
-Each loop of Blender becomes one vertex. The attribute _LOOP [n][4] holds the number of the loop, the
-least significant byte first, so that the result finds its loop in whatever order the command writes
-vertices. `extras.item` of a node is the index of its Item."""
+Each loop of Blender becomes one vertex. The attribute _LOOP [n][4] holds the number of the loop,
+the least significant byte first. The result finds its loop by it in any order of vertices.
+`extras.item` of a node is the index of its Item."""
 
 import zlib
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ class ExportError(Exception):
 
 @dataclass
 class Item:
-    """An object that the bake sees. Names stand for objects, because an undo changes their addresses.
+    """An object that the bake sees. Names stand for objects, since an undo changes addresses.
     key: names of instancer and object, and the number of the instance."""
     key: tuple
     name: str
@@ -82,7 +82,7 @@ def fate_of(instance, mesh, instancers):
 
 
 def replaced_names(context):
-    """Objects that an earlier bake made of objects that show again: their originals stand for them."""
+    """Objects that an earlier bake made of objects that show again. The bake skips them."""
     view_layer = context.view_layer
     return {o.name_full for o in view_layer.objects
             if o.get(SOURCE) is not None and o[SOURCE].name in view_layer.objects
@@ -201,7 +201,8 @@ class Exporter:
         normals = numpy.tile(numpy.float32((0, 0, -1)), (len(corners), 1))
         radiance = lamps.radiance_of(lamp.energy, area)
         plate = surface.Surface(emission=surface.Colour(tuple(radiance * c for c in lamp.color)))
-        element = dict(images.material_element(self, None, plate), name=lamp.name, doubleSided=False)
+        element = images.material_element(self, None, plate)
+        element.update(name=lamp.name, doubleSided=False)
         primitive = {"attributes": {"POSITION": add(numpy.float32(corners), "VEC3", bounds=True),
                                     "NORMAL": add(normals, "VEC3")},
                      "indices": add(fan.ravel(), "SCALAR", glb.ELEMENT_ARRAY_BUFFER),
@@ -224,7 +225,8 @@ class Exporter:
         self.add_node({"name": shown.name, "camera": index}, placed)
 
     def has_kept_nodes(self):
-        return any(n["name"].endswith(KEPT_END) for n in self.writer.document["nodes"] if "mesh" in n)
+        nodes = self.writer.document["nodes"]
+        return any(n["name"].endswith(KEPT_END) for n in nodes if "mesh" in n)
 
     def scene_options(self, folder):
         """Options of the command for suns and sky. An image of the sky is written into `folder`."""
@@ -254,7 +256,8 @@ def uvs_of(mesh, name):
 
 
 class Loops:
-    """Arrays of a mesh. positions, normals [loops][3]; triangles [n][3] loops; slots [n] materials."""
+    """Arrays of a mesh: positions, normals [loops][3]; triangles [n][3] of loops; slots [n] of
+    materials."""
 
     def __init__(self, mesh):
         if hasattr(mesh, "calc_normals_split"):  # until Blender 4.0

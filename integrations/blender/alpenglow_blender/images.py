@@ -22,8 +22,9 @@ def png(pixels):
     height, width = pixels.shape[:2]
     rows = numpy.zeros((height, 1 + 4 * width), numpy.uint8)
     rows[:, 1:] = pixels.reshape(height, -1)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)) \
-        + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b"")
+    head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + \
+        chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b"")
 
 
 def srgb(linear):
@@ -86,7 +87,7 @@ def texture(exporter, image):
 
 
 def material_element(exporter, material, surface):
-    """The glTF material of a Surface. `material` gives name, sides and kind of opacity, or is None."""
+    """The glTF material of a Surface. `material` gives name, sides and kind of opacity."""
     base = [min(max(c, 0.0), 1.0) for c in surface.base.factor] + [surface.alpha]
     pbr = {"baseColorFactor": base, "metallicFactor": 0.0, "roughnessFactor": 1.0}
     element = {"name": material.name if material else "no material", "pbrMetallicRoughness": pbr,

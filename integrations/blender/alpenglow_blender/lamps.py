@@ -17,8 +17,8 @@ An area lamp of power P and area A emits from its front
 
     L = P / (4 A)               [W/sr/m2]
 
-That is pi / 4 of a plate that emits P in all. tests/integrations/blender/test_lamps.py compares each
-formula with a picture by Cycles."""
+That is pi / 4 of a plate that emits P in all. tests/integrations/blender/test_lamps.py compares
+each formula with a picture by Cycles."""
 
 import math
 
@@ -38,8 +38,8 @@ def radiance_of(power, area):
 
 
 def cone_of(size, blend):
-    """Inner and outer half angle of a spot. Cycles fades between the cosines of the half cone, c, and
-    c + (1 - c) blend. glTF has another curve between the same two."""
+    """Inner and outer half angle of a spot. Cycles fades between the cosines of the half cone, c,
+    and c + (1 - c) blend. glTF has another curve between the same two."""
     outer = min(size / 2, math.pi / 2)
     cosine = math.cos(outer)
     inner = math.acos(min(1.0, cosine + (1 - cosine) * blend))

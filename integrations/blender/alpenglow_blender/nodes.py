@@ -5,9 +5,9 @@
 
     L = min(rho, 0.95) x intensity x (E / pi) + Le      [W/sr/m2]
 
-as `alpenglow render --with lightmap` does. Its factor Baked fades to the original shader, which stays
-linked. "Alpenglow Occlusion" multiplies a colour by the occlusion, as the field does it, and gives the
-occlusion as a number too."""
+as `alpenglow render --with lightmap` does. Its factor Baked fades to the original shader, which
+stays linked. "Alpenglow Occlusion" multiplies a colour by the occlusion, as is usual in Blender. It
+gives the occlusion as a number too."""
 
 import bpy
 

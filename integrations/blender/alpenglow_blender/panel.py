@@ -12,7 +12,7 @@ WHAT = (("OCCLUSION", "Occlusion", "How much of its surroundings each place sees
         ("BOTH", "Occlusion and light", "Both on one map"),
         ("PROBES", "Probes", "Light for moving things, as a file beside the .blend"))
 SCOPE = (("VISIBLE", "Visible", "Everything that the view shows and that renders"),
-         ("SELECTED", "Selected", "Selected objects alone: others shade nothing. Lamps still shine"))
+         ("SELECTED", "Selected", "Selected objects alone; others shade nothing. All lamps shine"))
 STOP = (("QUALITY", "Quality", "An error by name"), ("ERROR", "Error", "An error by number"))
 QUALITY = (("PREVIEW", "Preview", "A stated error of 4 %"), ("MEDIUM", "Medium", "1 %"),
            ("HIGH", "High", "0.4 %"))

@@ -24,14 +24,14 @@ def find_command(wanted):
     if not path:
         path = shutil.which("alpenglow")
         if path is None:
-            raise CommandError("there is no command alpenglow on PATH; install it, or name it in the "
-                               "preferences of the add-on")
+            raise CommandError("there is no command alpenglow on PATH; install it, or name it in "
+                               "the preferences of the add-on")
     if not os.path.isfile(path):
         raise CommandError(f"{path}: there is no such file; name the command alpenglow in the "
                            "preferences of the add-on")
     if not os.access(path, os.X_OK):
-        raise CommandError(f"{path}: is not executable; run chmod +x, or name another command in the "
-                           "preferences of the add-on")
+        raise CommandError(f"{path}: is not executable; run chmod +x, or name another command in "
+                           "the preferences of the add-on")
     return path
 
 
@@ -56,8 +56,8 @@ def check_command(wanted):
     numbers = words[1].split(".")
     wanted_version = ".".join(map(str, VERSION))
     if ".".join(numbers[:2]) != wanted_version:
-        raise CommandError(f"{path}: is version {words[1]}, and this add-on needs {wanted_version}; "
-                           "install both from one release")
+        raise CommandError(f"{path}: is version {words[1]}, and this add-on needs "
+                           f"{wanted_version}; install both from one release")
     return path, words[1]
 
 

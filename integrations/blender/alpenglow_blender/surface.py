@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Reads from the nodes of a material the numbers that light needs: diffuse colour, emission, opacity,
-transmission. Roughness, metalness and relief do not matter to diffuse light."""
+"""Reads the numbers that light needs from the nodes of a material: diffuse colour, emission,
+opacity and transmission. Roughness, metalness and relief do not matter to diffuse light."""
 
 from dataclasses import dataclass, field
 from typing import Any, Tuple
@@ -214,7 +214,7 @@ def scaled(surface, by):
 
 
 def total(a, b, notes):
-    """The sum of two colours: exact unless both have a texture, or one and the other is not black."""
+    """The sum of two colours: exact if one is black, or if neither has a texture."""
     if a.is_black() or b.is_black():
         return b if a.is_black() else a
     if not a.is_plain() or not b.is_plain():

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The world of Blender as the sky of the command: radiance, linear.
 
-Read are the colour and the strength of a Background node, and an Environment Texture before it whose
-image is an .exr or .hdr. The middle of the image looks along +X in Blender, and along -Z, Blender's +Y,
-in the command."""
+It reads the colour and the strength of a Background node, and before it an Environment Texture with
+an .exr or .hdr image. The middle of the image looks along +X in Blender. In the command it looks
+along -Z, which is Blender's +Y."""
 
 import os
 
@@ -28,8 +28,8 @@ def sky_options(world, folder, notes):
         return []
     colour, strength = background.inputs["Color"], background.inputs["Strength"]
     if strength.links:
-        notes.append(f"world {world.name}: the strength of {background.name} is a link, which is not "
-                     "read; the value behind it counts")
+        notes.append(f"world {world.name}: the strength of {background.name} is a link, which is "
+                     "not read; the value behind it counts")
     if colour.links:
         return picture_sky(world, colour.links[0].from_node, strength.default_value, folder, notes)
     return even_sky([c * strength.default_value for c in colour.default_value[:3]])

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # run.sh COMMAND NAME SHARED: test_NAME.py inside Blender, with the add-on installed from its zip.
-# 77 = skipped: no Blender, no numpy, no virtual screen, or no shared folder where the test needs it.
+# 77 = skipped: no Blender, numpy or virtual screen, or no shared folder where the test needs it.
 set -euo pipefail
 command=$(realpath "$1")
 name=$2

@@ -132,9 +132,10 @@ def render_command(baked, *options):
     """The same by `alpenglow render --with lightmap`."""
     out = os.path.join(FOLDER, "command.exr")
     render = bpy.context.scene.render
-    subprocess.run(["alpenglow", "render", baked, "-o", out, "-f", "-q", *(() if "--with" in options else ("--with", "lightmap")),
-                    "--samples", "1", "--camera", "0", "--resolution", f"{render.resolution_x}x{render.resolution_y}",
-                    *options], check=True)
+    size = f"{render.resolution_x}x{render.resolution_y}"
+    method = [] if "--with" in options else ["--with", "lightmap"]
+    subprocess.run(["alpenglow", "render", baked, "-o", out, "-f", "-q", *method, "--samples", "1",
+                    "--camera", "0", "--resolution", size, *options], check=True)
     return read_exr(out)
 
 
@@ -164,7 +165,8 @@ def state_of_scene():
                    len(getattr(o.data, "polygons", ())),
                    tuple(s.material.name if s.material else "" for s in o.material_slots))
                   for o in bpy.data.objects) + \
-        sorted((m.name, len(m.node_tree.nodes) if m.node_tree else 0) for m in bpy.data.materials) + \
+        sorted((m.name, len(m.node_tree.nodes) if m.node_tree else 0)
+               for m in bpy.data.materials) + \
         sorted((i.name,) for i in bpy.data.images)
 
 

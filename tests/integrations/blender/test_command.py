@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command: broken installs, failures and cancels each give one clear line and change nothing."""
+"""Broken installs, failures and cancels give one clear line each, and change nothing."""
 
 import os
 import signal
@@ -74,8 +74,8 @@ def test_failing_bakes():
     scene()
     version = "if [ $1 = --version ]; then echo alpenglow 0.1.0; exit; fi\n"
     assert "crashed (SIGSEGV)" in refusal(script("late", version + "kill -SEGV $$"))
-    assert refusal(script("full", version +
-                          "echo 'alpenglow: OUT: disk full; free some' >&2; echo more >&2; exit 1")) == \
+    full = "echo 'alpenglow: OUT: disk full; free some' >&2; echo more >&2; exit 1"
+    assert refusal(script("full", version + full)) == \
         "OUT: disk full; free some"
     assert "ended well and wrote no baked.glb" in refusal(script("nothing", version + "exit 0"))
     assert "not a .glb" in refusal(script("junk", version + 'echo 12345678901234567890 >"$4"'))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Units of lamps and world: E of a plane by closed forms, by the command and by Cycles.
 
-A plane with albedo 0.5 lies in the origin, and nothing reflects onto it. Cycles shows 0.5 E / pi."""
+A plane of albedo 0.5 lies in the origin, and nothing reflects onto it. Cycles shows 0.5 E / pi."""
 
 import json
 import math
@@ -174,5 +174,5 @@ def test_file():
     assert "warning" not in told.stdout + told.stderr, told.stdout + told.stderr
 
 
-support.main(test_formulas, test_point, test_spot, test_sun, test_area, test_scaled_area, test_world,
-             test_picture, test_file)
+support.main(test_formulas, test_point, test_spot, test_sun, test_area, test_scaled_area,
+             test_world, test_picture, test_file)

@@ -98,7 +98,8 @@ def test_many_materials():
     share = support.close_share(support.render_command(baked, *sky), support.render_cycles())
     print(f"six materials: {100 * share:.2f} % of pixels within 1/255; {notes}")
     assert share >= 0.99
-    assert [s.material.name for s in cube.material_slots] == ["a", "no nodes", "sum", "glow", "b", "c"]
+    names = [s.material.name for s in cube.material_slots]
+    assert names == ["a", "no nodes", "sum", "glow", "b", "c"], names
 
 
 def test_shared():
@@ -126,7 +127,8 @@ def test_occlusion():
     ours = support.render_command(baked, "--with", "ao")
     tree = white.node_tree
     group = next(n for n in tree.nodes if addon.nodes.is_group(n, addon.nodes.OCCLUSION))
-    assert group.outputs["Color"].links[0].to_socket == tree.nodes["Principled BSDF"].inputs["Base Color"]
+    base = tree.nodes["Principled BSDF"].inputs["Base Color"]
+    assert group.outputs["Color"].links[0].to_socket == base
     show = tree.nodes.new("ShaderNodeEmission")
     tree.links.new(show.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
     tree.links.new(group.outputs["Occlusion"], show.inputs["Color"])
@@ -157,7 +159,8 @@ def test_removal():
     bpy.context.scene.alpenglow.what = "BOTH"
     materials = [bpy.data.materials[n] for n in ("a", "sum", "glow", "b")]
     before = [links_of(m) for m in materials]
-    colour = tuple(materials[0].node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value)
+    socket = materials[0].node_tree.nodes["Principled BSDF"].inputs["Base Color"]
+    colour = tuple(socket.default_value)
     original = support.render_cycles(16)
     support.bake()
     for material in list(bpy.data.materials):

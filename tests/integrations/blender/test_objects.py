@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Instances, modifiers, curves, names, linked files: which object takes the result, and whether it is
-the light of its place. A picture by Cycles is compared with the command's (test_values.py)."""
+"""Instances, modifiers, curves, names, linked files: the object that takes the result, and whether
+it is the light of its place. Pictures by Cycles are compared with the command's (test_values.py)."""
 
 import os
 import sys
@@ -200,7 +200,8 @@ def test_linked():
     bpy.context.scene.collection.objects.link(mine)
     _, notes = support.bake()
     assert any(n.startswith("stone is linked from another file: it shades") for n in notes), notes
-    assert shows_map(mine) and mine.data.library is None and shows_map(object_of("copy/stone.baked"))
+    assert shows_map(mine) and mine.data.library is None
+    assert shows_map(object_of("copy/stone.baked"))
     assert mine.data.materials[0].library is None and mine.data.materials[0].name == "rock.baked"
     assert any(n.startswith("override is linked from another file") for n in notes), notes
     assert not shows_map(stone) and stone.visible_get() and not shows_map(override)
@@ -238,8 +239,25 @@ def test_cut_normals():
     assert len(mesh.vertices) == len(vertices) and mesh.vertices[3].groups[0].weight == 0.5
     after = normal_at_corners(mesh)
     worst = max(min(numpy.abs(n - m).max() for m in before[v]) for v in after for n in after[v])
-    # Blender keeps custom normals as two 16-bit angles of a corner; a cut that loses them moves some by 1.
+    # Blender keeps custom normals as two 16-bit angles; a cut that loses them moves some by 1.
     assert worst < 5e-3, f"a normal moved by {worst}"
+
+
+def test_cut_coordinates():
+    """After the cut every triangle has the coordinates that the command gave it."""
+    support.empty_scene().what = "OCCLUSION"
+    mesh = support.add_mesh("monkey", "monkey").data
+    vertex_of_loop = [loop.vertex_index for loop in mesh.loops]
+    out, notes = support.bake_in(support.FOLDER)
+    assert "lie in two charts" in notes[0], notes
+    loops, places = addon.apply.Result(out).corners(0)
+    wanted = {frozenset((vertex_of_loop[i], *uv) for i, uv in zip(three, uvs))
+              for three, uvs in zip(loops.tolist(), places.tolist())}
+    layer = mesh.uv_layers[addon.nodes.UV_MAP].data
+    mesh.calc_loop_triangles()
+    found = {frozenset((mesh.loops[i].vertex_index, *layer[i].uv) for i in t.loops)
+             for t in mesh.loop_triangles}
+    assert len(wanted) == len(loops) and found == wanted, len(wanted - found)
 
 
 def normal_at_corners(mesh):
@@ -250,5 +268,5 @@ def normal_at_corners(mesh):
     return found
 
 
-support.main(test_instances, test_scatter, test_modifiers, test_curves, test_selected, test_linked, test_old_maps,
-             test_cut_normals)
+support.main(test_instances, test_scatter, test_modifiers, test_curves, test_selected, test_linked,
+             test_old_maps, test_cut_normals, test_cut_coordinates)

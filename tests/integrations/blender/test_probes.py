@@ -16,8 +16,8 @@ addon = support.install()
 def test_probes():
     settings = support.empty_scene()
     settings.what, settings.spacing = "PROBES", 1.0
-    support.add_mesh("plane", "floor", size=4)
-    support.add_mesh("cube", "tower", size=1, location=(1, 1, 2.5))
+    support.add_mesh("plane", "floor", size=4, location=(0, 5, 0))
+    support.add_mesh("cube", "tower", size=1, location=(1, 6, 2.5))
     support.set_world((0.5, 0.5, 0.5))
     try:
         bpy.ops.alpenglow.bake()
@@ -34,6 +34,8 @@ def test_probes():
     shown = bpy.data.objects[addon.probes.NAME]
     assert len(shown.data.vertices) == description["count"] and not shown.data.polygons
     assert shown["file"] == "//Räume.probes.json" and list(shown["size"]) == description["size"]
+    places = [v.co for v in shown.data.vertices]
+    assert all(abs(p.x) <= 2 and 3 <= p.y <= 7 for p in places), "probes outside the scene"
     heights = sorted({round(v.co.z, 4) for v in shown.data.vertices})
     assert 0 <= heights[0] and heights[-1] <= 3 and len(heights) == description["size"][1], heights
     assert "Alpenglow" not in bpy.data.objects["floor"].data.uv_layers

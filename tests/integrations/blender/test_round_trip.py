@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Two rooms of the shared folder, loaded by Blender's importer: export, bake and apply, with seconds of
-each, and the picture against the command's."""
+"""Two rooms of the shared folder, loaded by Blender's importer: export, bake and apply with the
+seconds of each, and the picture against the command's."""
 
 import os
 import sys

@@ -2,8 +2,7 @@
 """One step of undo returns to the scene before the bake, and one of redo to the bake.
 
 Without a window no key is pressed: the operator runs with its undo flag, as the button runs it, and
-ed.undo takes the step back. The steps of a modal run, which Blender pushes by the same flag, are not
-tested here."""
+ed.undo takes the step back. test_window.py tests a modal run, which needs a window."""
 
 import os
 import sys

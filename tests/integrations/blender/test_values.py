@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The node groups show what `alpenglow render` shows: pictures by Cycles against the command's.
 
-Cycles takes one sample of emission at the middle of a pixel, as the command does. 1 % of the pixels may
-differ by more than 1/255: both programs decide the edges of triangles by their own rounding."""
+Cycles takes one sample of emission at the middle of a pixel, as the command does. 1 % of the pixels
+may differ by more than 1/255: both programs decide the edges of triangles by their own rounding."""
 
 import os
 import sys
@@ -36,8 +36,8 @@ def room():
 
 
 def add_picture(material):
-    """A smooth texture on the base colour of a material: Cycles interpolates sRGB bytes, the command
-    their linear values, which differ at steps."""
+    """A smooth texture on the base colour of a material. Cycles interpolates sRGB bytes, the
+    command their linear values, which differ at steps."""
     image = bpy.data.images.new(f"waves {material.name}", 256, 256)
     y, x = 2 * numpy.pi / 256 * numpy.mgrid[0:256, 0:256]
     pixels = numpy.ones((256, 256, 4), numpy.float32)

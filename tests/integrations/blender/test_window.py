@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The button in a window: Blender draws into a virtual screen, the bake runs behind the window, Cancel
-ends it, one step of undo takes a finished bake back, and the command ends with Blender."""
+"""The button in a window: Blender draws into a virtual screen, and the bake runs behind the window.
+Cancel ends it. One step of undo takes a finished bake back. The command ends with Blender."""
 
 import os
 import sys
