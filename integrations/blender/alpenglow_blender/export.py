@@ -177,6 +177,10 @@ class Exporter:
 
     def add_lamp(self, shown, matrix):
         lamp = shown.data
+        if lamp.energy <= 0 or max(lamp.color) <= 0:
+            if lamp.energy < 0:
+                self.notes.append(f"{shown.name} takes light away, which no bake does: left out")
+            return
         if lamp.type == "SUN":
             self.suns.append((lamp.energy, lamp.angle))
         if lamp.type == "AREA":
@@ -194,7 +198,7 @@ class Exporter:
         lamp = shown.data
         corners = lamps.outline_of(lamp)
         area = lamps.world_area(corners, matrix)
-        if area <= 0 or lamp.energy <= 0 or max(lamp.color) <= 0:
+        if area <= 0:
             return
         fan = numpy.array([(0, i, i + 1) for i in range(1, len(corners) - 1)], numpy.uint32)
         add = self.writer.add_accessor

@@ -159,8 +159,11 @@ def test_file():
     plane()
     sun = support.add_lamp("SUN", "sun", 4.0, (1, 2, 3), color=(1, 0.5, 0))
     sun.rotation_euler = (0, 0, 0)
+    support.add_lamp("POINT", "dark", -5.0, (0, 0, 1))
     path = os.path.join(support.FOLDER, "axes.glb")
-    addon.export.Exporter(bpy.context, False).write(path)
+    exporter = addon.export.Exporter(bpy.context, False)
+    exporter.write(path)
+    assert exporter.notes == ["dark takes light away, which no bake does: left out"]
     with open(path, "rb") as file:
         data = file.read()
     size = struct.unpack_from("<I", data, 12)[0]

@@ -195,7 +195,7 @@ def test_linked():
     override = stone.override_create()
     override.name, override.location = "override", (0, 2, 0.5)
     bpy.context.scene.collection.objects.link(override)
-    mine = bpy.data.objects.new("mine", stone.data)
+    mine = bpy.data.objects.new("mine~", stone.data)
     mine.location = (-2, 0, 0.5)
     bpy.context.scene.collection.objects.link(mine)
     _, notes = support.bake()
