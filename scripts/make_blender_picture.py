@@ -24,7 +24,7 @@ def load():
 
 
 def light_up():
-    """A sky of daylight, and a sun where the scene brings none."""
+    """Adds a sky of daylight and a sun."""
     background = bpy.context.scene.world.node_tree.nodes["Background"]
     background.inputs["Color"].default_value = (0.45, 0.6, 1.0, 1)
     background.inputs["Strength"].default_value = 0.8

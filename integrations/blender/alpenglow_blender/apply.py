@@ -25,7 +25,7 @@ class Page:
 
 
 class Result:
-    """What the command wrote."""
+    """The .glb that the command wrote."""
 
     def __init__(self, path):
         self.reader = glb.Reader(path)

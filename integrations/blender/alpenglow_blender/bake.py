@@ -70,7 +70,7 @@ class Bake:
         self.seconds[name], self.began = now - self.began, now
 
     def step(self, context):
-        """Looks after the command, and applies the result once it is there."""
+        """Reads the progress of the command, and applies its result once it has ended."""
         if self.state == RUNNING and self.job.poll():
             try:
                 self._finish(context)

@@ -25,7 +25,7 @@ class ExportError(Exception):
 
 @dataclass
 class Item:
-    """An object that the bake sees. Names stand for objects, since an undo changes addresses.
+    """An object that the bake sees. Objects are found by name, since an undo changes addresses.
     key: names of instancer and object, and the number of the instance."""
     key: tuple
     name: str

@@ -179,7 +179,7 @@ def show_occlusion(tree, surface, image):
 
 
 def remove(tree):
-    """Takes our nodes out: the material is as it was before the bake."""
+    """Removes our nodes. The material is then as it was before the bake."""
     for node in list(tree.nodes):
         light = is_group(node, LIGHT)
         if not light and not is_group(node, OCCLUSION):

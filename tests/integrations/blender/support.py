@@ -159,7 +159,7 @@ def close_share(a, b):
 
 
 def state_of_scene():
-    """What a cancelled bake may not change."""
+    """Everything that a cancelled bake may not change."""
     return sorted((o.name, o.type, o.hide_render, o.data.name if o.data else "",
                    tuple(u.name for u in getattr(o.data, "uv_layers", ())),
                    len(getattr(o.data, "polygons", ())),
