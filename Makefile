@@ -19,8 +19,8 @@ FUZZ_TARGETS ?=
 # Pictures of docs/gallery.md to make; empty: all that are quick.
 GALLERY ?=
 
-.PHONY: all demo gallery test test-fast test-integrations fuzz format lint lint-all install deb \
-        clean help
+.PHONY: all demo gallery blender-addon deb test test-fast test-integrations fuzz format lint \
+        lint-all install clean help
 
 all: ## Build the library and the command, ready for use (the default)
 	$(call setup,build)
@@ -36,6 +36,11 @@ gallery: ## Set up, build, make the pictures of docs/gallery.md (GALLERY="atrium
 	$(call setup,build)
 	@$(call build,release)
 	@scripts/make_gallery.py build/release/apps/alpenglow/alpenglow docs/pictures $(GALLERY)
+
+blender-addon: ## Pack the Blender add-on into build/alpenglow-blender.zip
+	@mkdir -p build
+	@integrations/blender/make_zip.py build/alpenglow-blender.zip
+	@echo "Install build/alpenglow-blender.zip in Blender: Edit > Preferences > Add-ons > Install"
 
 test: ## Set up, build and run every test; ends in a line that counts them
 	$(call setup,check)

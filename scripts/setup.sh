@@ -6,6 +6,8 @@
 #   scripts/setup.sh check    that, and what tests, lint and CI need (default)
 #   scripts/setup.sh browser  that, a browser (some 500 MB), which opens what is written for it, and
 #                             what the Python module needs
+#   scripts/setup.sh blender  what check needs, and Blender with a virtual screen (some 640 MB), which
+#                             tests the add-on
 #   scripts/setup.sh cluster  what check needs, MPI, and Slurm for tests (some 140 MB)
 #   scripts/setup.sh deb      what build needs, MPI, and what builds and tests Debian packages
 #
@@ -61,6 +63,11 @@ check_packages="
     zstd                zstd"
 browser_packages="
     chromium            chromium"
+blender_packages="
+    blender             blender
+    python3-numpy       -
+    xvfb                Xvfb
+    xauth               xauth"
 cluster_packages="
     libopenmpi-dev      -
     openmpi-bin         mpirun
@@ -144,11 +151,12 @@ install_npm() { # folder, what is missing without: what package-lock.json pins, 
 case "${1:-check}" in
 build) wanted=$build_packages ;;
 check) wanted=$build_packages$'\n'$check_packages ;;
+blender) wanted=$build_packages$'\n'$check_packages$'\n'$blender_packages ;;
 cluster) wanted=$build_packages$'\n'$check_packages$'\n'$cluster_packages ;;
 deb) wanted=$build_packages$'\n'$deb_packages ;;
 browser) wanted=$build_packages$'\n'$check_packages$'\n'$browser_packages$'\n'$python_packages ;;
 *)
-    say "usage: scripts/setup.sh [build|check|browser|cluster|deb]"
+    say "usage: scripts/setup.sh [build|check|browser|blender|cluster|deb]"
     exit 2
     ;;
 esac
