@@ -7,16 +7,19 @@
 #include <alpenglow/alpenglow.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 
-/// Reads MAJOR.MINOR.PATCH. @return a number that is larger for later versions; 0 for other text
+/// Reads MAJOR.MINOR.PATCH. @return a number that is larger for later versions
 static long read_version(const char *text)
 {
-    enum { PART_LIMIT = 1000 };
-    int major = 0, minor = 0, patch = 0;
-    if (sscanf(text, "%3d.%3d.%3d", &major, &minor, &patch) != 3) {
-        return 0;
+    enum { PARTS = 3, PART_LIMIT = 1000 };
+    long version = 0;
+    for (int i = 0; i < PARTS; i++) {
+        char *end;
+        version = version * PART_LIMIT + strtol(text, &end, 10);
+        text = *end == '.' ? end + 1 : end;
     }
-    return ((long)major * PART_LIMIT + minor) * PART_LIMIT + patch;
+    return version;
 }
 
 int library_check(void)

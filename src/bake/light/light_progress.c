@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Share of the rest of its part that a loop takes, as a guess where the number of loops is unknown.
+/// Share of the rest of its part that a loop takes: a guess if the number of loops is unknown.
 static const double LOOP_SHARE = 0.5;
 /// The most progress before the end: the number of rounds is unknown.
 static const double MOST_REPORTED = 0.99;
