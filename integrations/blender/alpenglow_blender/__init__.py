@@ -3,6 +3,12 @@
 
 import bpy
 
+try:
+    import numpy  # pylint: disable=unused-import # noqa: F401
+except ImportError:
+    raise ImportError("Alpenglow needs numpy in Blender's Python; Debian has it as python3-numpy, "
+                      "for the Python in /usr/bin") from None
+
 from . import bake, panel, preferences
 
 bl_info = {
