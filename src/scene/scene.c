@@ -276,8 +276,11 @@ static void clamp_materials(alp_scene *scene)
 
 const char *alpi_scene_second_set(const alp_scene *scene)
 {
-    return scene->attachments[ALPI_ATTACHMENT_OBJ].data != NULL
-               ? "the set of texture coordinates (vt)"
+    if (scene->attachments[ALPI_ATTACHMENT_OBJ].data != NULL) {
+        return "the set of texture coordinates (vt)";
+    }
+    return scene->attachments[ALPI_ATTACHMENT_COLLADA].data != NULL
+               ? "the second UV set (<input semantic=\"TEXCOORD\">)"
                : "the second UV set (TEXCOORD_1)";
 }
 

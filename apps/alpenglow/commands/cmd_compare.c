@@ -107,6 +107,16 @@ static int check_outputs(const command_line *arguments)
     if (heatmap != NULL && json != NULL && output_is_same(heatmap, json)) {
         return usage_error(COMMAND_COMPARE, "--heatmap and --json name the same file: %s", json);
     }
+    for (int i = 0; i < 2; i++) {
+        const char *compared = arguments->operands[i];
+        if ((heatmap != NULL && output_is_same(heatmap, compared)) ||
+            (json != NULL && output_is_same(json, compared))) {
+            return usage_error(COMMAND_COMPARE,
+                               "%s is compared and would be overwritten; give the "
+                               "output another name",
+                               compared);
+        }
+    }
     int code = heatmap != NULL ? output_check(heatmap, overwrite) : EXIT_DONE;
     return code == EXIT_DONE && json != NULL ? output_check_json(json, overwrite) : code;
 }

@@ -7,3 +7,7 @@ json_shape numbers.json
 head -c 4 heat.png | tail -c 3; echo
 alpenglow compare a.exr b.exr --heatmap heat.png; echo $?
 alpenglow compare a.exr b.exr --heatmap heat.png --json numbers.json -f >/dev/null; echo $?
+cp a.exr c.png
+alpenglow compare c.png b.exr --heatmap c.png -f; echo $?
+alpenglow compare a.exr b.exr --json b.exr -f; echo $?
+cmp a.exr c.png
