@@ -49,12 +49,21 @@ pkg-config --exists epoxy egl || {
     left_out "the page of alpenglow web" "there is no three.js in web/viewer"
 
 mkdir -p "$output"
-work=$(cd "$output" && pwd)/work
+output=$(cd "$output" && pwd)
+work=$(mktemp -d "$output/work.XXXXXX") # on the same disk, so that the packages are renamed
+trap 'rm -rf "$work"' EXIT
 tree=$work/alpenglow-$version
-rm -rf "$work"
 mkdir -p "$tree"
-tar -c --exclude=./build --exclude=./demo --exclude=./.git --exclude='./tests/*/node_modules' \
-    --exclude=__pycache__ --exclude="./$(realpath --relative-to=. "$output")" . | tar -x -C "$tree"
+list_sources() { # files of the sources, each with a zero byte behind it
+    if [ -e .git ] && command -v git >/dev/null 2>&1; then
+        git ls-files -z
+    else
+        find . \( -name .git -o -path ./build -o -path ./demo -o -name node_modules -o \
+            -name __pycache__ \) -prune -o -type f -print0
+    fi
+    [ ! -d web/viewer/node_modules ] || find web/viewer/node_modules -type f -print0
+}
+list_sources | tar -c --null --no-recursion -T - | tar -x -C "$tree"
 
 cp -r packaging/debian "$tree/debian"
 mv "$tree/debian/libalpenglow.install" "$tree/debian/libalpenglow$soversion.install"
@@ -69,7 +78,7 @@ alpenglow ($version) unstable; urgency=medium
  -- $maintainer  $(LC_ALL=C date -u -R -d "@$seconds")
 CHANGELOG
 
-log=$work/build.log
+log=$output/build.log
 say "building in $tree"
 (cd "$tree" &&
     env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL -u SOURCE_DATE_EPOCH \
@@ -79,7 +88,9 @@ say "building in $tree"
     say "dpkg-buildpackage failed; $log has all of its output"
     exit 1
 }
-rm -f "$output"/*.deb "$output"/*.changes "$output"/*.buildinfo
+for name in alpenglow libalpenglow; do # a former build may have had more packages
+    rm -f "$output/$name"[_0-9-]*.{deb,changes,buildinfo}
+done
 mv "$work"/*.deb "$work"/*.changes "$work"/*.buildinfo "$output"
-rm -rf "$work"
-(cd "$output" && ls -1 ./*.deb) | sed "s|^\.|$output|"
+rm -f "$log"
+ls -1 "$output"/*.deb

@@ -88,6 +88,8 @@ alp_result alpi_light_relight(const alpi_light_rounds *r, uint32_t rays, double 
     const alpi_light_bake *light = r->light;
     const alpi_radiosity *solution = r->solution;
     const alpi_radiosity_options *o = &solution->options;
+    alpi_task_progress silent = light->progress; // far shorter than the gather that follows
+    silent.silent = true;
     const double by_patch = (double)o->gatherer->packet_count * ALPI_PACKET;
     const double by_texels = (double)rays * (double)light->job->report.light_traced /
                              fmax((double)solution->patches.patch_count, 1.0);
@@ -97,9 +99,8 @@ alp_result alpi_light_relight(const alpi_light_rounds *r, uint32_t rays, double 
     if (solution->texels != NULL) {
         return ALP_OK;
     }
-    ALP_TRY(alpi_radiosity_relight(solution, ALPI_NONE, finer ? light->values : NULL,
-                                   &light->progress));
-    return alpi_patches_set_reach(&solution->patches, &light->progress);
+    ALP_TRY(alpi_radiosity_relight(solution, ALPI_NONE, finer ? light->values : NULL, &silent));
+    return alpi_patches_set_reach(&solution->patches, &silent);
 }
 
 // --- a round -------------------------------------------------------------------------------------

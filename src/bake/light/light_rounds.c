@@ -80,9 +80,8 @@ static alp_result add_rays(alpi_light_rounds *r, uint32_t rays)
     double noise;
     uint32_t count;
     const uint32_t *list = alpi_light_tracing_texels(r, &count);
-    alpi_light_clock_part(r->light->clock, false, 1.0);
-    ALP_TRY(alpi_light_relight(r, r->rays.per_texel, &noise));
     alpi_light_clock_part(r->light->clock, true, 0.0);
+    ALP_TRY(alpi_light_relight(r, r->rays.per_texel, &noise));
     ALP_TRY(alpi_light_gather(r, rays, &r->fresh));
     for (uint32_t i = 0; i < count; i++) {
         merge_texel(r, list[i], rays);
