@@ -11,7 +11,7 @@ import numpy
 
 SCENE, OUT = sys.argv[-2:]
 TAB = (13, 230)  # of the add-on, in the sidebar: pixels from the right and the top of the view
-numpy.bool = bool  # Blender 3.4's importer of glTF asks for it; numpy has dropped it
+numpy.bool = bool  # Blender 3.4's importer of glTF needs a name that numpy 1.24 lacks
 
 
 def load():
