@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdalign.h>
 #include <stdatomic.h>
@@ -116,6 +117,7 @@ static void loop_report(loop *l, bool always)
     double done =
         p->units_before + (double)atomic_load_explicit(&l->done, memory_order_relaxed) * per_item;
     double total = p->units_total > 0.0 ? p->units_total : (double)l->count * per_item;
+    done = fmin(done, total); // the last item may be smaller
     double seconds = now - (p->started > 0.0 ? p->started : l->started);
     double rate = seconds > 0.0 ? done / seconds : 0.0;
     alp_progress report = {p->stage, (uint64_t)done, (uint64_t)total,

@@ -230,7 +230,8 @@ static void repair_normals(alp_scene *scene)
         }
         if (bad > 0 && !surface->normals_generated) {
             alpi_warn(scene->context, "bad-normals", surface->name,
-                      "%u normals are zero or not finite: the triangle's normal is used", bad);
+                      "%u normal%s zero or not finite: the triangle's normal is used", bad,
+                      alpi_one_or_many(bad, " is", "s are"));
         }
     }
     for (uint32_t v = 0; v < scene->vertex_count; v++) { // vertices of no usable triangle

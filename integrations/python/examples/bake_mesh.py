@@ -18,13 +18,25 @@ def box(low, high, inwards=False):
     return low + corners * numpy.subtract(high, low), triangles[:, ::-1] if inwards else triangles
 
 
+class Progress:
+    """Prints each stage, and its progress in steps of a tenth."""
+
+    def __init__(self):
+        self.printed = None
+
+    def __call__(self, progress):
+        state = (progress.stage, 10 * progress.done // max(progress.total, 1))
+        if state != self.printed:
+            self.printed = state
+            print(f"{state[0]} {10 * state[1]} %", file=sys.stderr)
+
+
 def main(path):
     scene = alpenglow.Scene.from_meshes([
         alpenglow.Mesh(*box((0, 0, 0), (4, 2.5, 3), inwards=True), albedo=(0.7, 0.6, 0.5), name="room"),
         alpenglow.Mesh(*box((1.5, 0, 1), (2.5, 0.8, 2)), albedo=(0.2, 0.3, 0.7), name="table"),
         alpenglow.Mesh(*box((1.5, 2.4, 1), (2.5, 2.45, 2)), albedo=0, emission=20, name="panel")])
-    lightmap = scene.bake(size=128, maps=("ao", "light"),
-                          progress=lambda p: print(f"{p.stage} {p.done}/{p.total}", file=sys.stderr))
+    lightmap = scene.bake(size=128, maps=("ao", "light"), progress=Progress())
     light, report = lightmap.irradiance, lightmap.report
     covered = lightmap.coverage > 0.5
     print(f"{covered.sum()} texels, mean {light[covered].mean():.2f} W/m2, "

@@ -198,6 +198,28 @@ TEST(progress_can_cancel)
     }
 }
 
+static bool stay_within(void *user, const alp_progress *progress)
+{
+    assert_true(progress->done <= progress->total);
+    assert_int_equal(progress->total, 72);
+    *(uint64_t *)user = progress->done;
+    return true;
+}
+
+/// The last item of a stage may stand for fewer units than the others.
+TEST_WITH_CONTEXT(progress_stays_within_its_total, 1)
+{
+    uint64_t done = 0;
+    _Atomic uint64_t count = 0;
+    const alpi_task_progress progress = {.callback = stay_within,
+                                         .user = &done,
+                                         .stage = "test",
+                                         .units_per_item = 32.0,
+                                         .units_total = 72.0};
+    ASSERT_OK(context, alpi_parallel_for(context, 4, 1, count_items, &count, &progress));
+    assert_int_equal(done, 72);
+}
+
 static void host_parallel_for(void *user, uint32_t count, uint32_t grain, alp_range_fn *body,
                               void *body_user)
 {
