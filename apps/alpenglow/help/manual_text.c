@@ -7,7 +7,7 @@ static const manual_text texts[COMMAND_COUNT + 1] = {
         {.failed = "A file could not be read or written, SCENE has nothing to bake, or "
                    "--warnings-as-errors stopped at a warning. Nothing was written.",
          .files = {{"OUT.glb, OUT.gltf, OUT.dae", "SCENE with the maps attached to its materials."},
-                   {"OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png",
+                   {"OUT.bin, OUT.bake.bin, OUT.ao.png, OUT.ao.1.png",
                     "Files of an OUT.gltf: geometry, data that the bake adds, and pages of the "
                     "map."},
                    {"OUT.obj, OUT.mtl, OUT.ao.png",

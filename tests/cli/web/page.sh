@@ -20,7 +20,7 @@ echo '== outside'
 mkdir in && echo secret >secret.png
 sed 's/"baked.ao.png"/"..\/secret.png"/; s/"baked/"..\/baked/' baked.gltf >in/out.gltf
 ln -s ../secret.png in/link.png
-cp baked.bin baked.ao.bin in
+cp baked.bin baked.bake.bin in
 sed 's/baked.ao.png/link.png/' baked.gltf >in/link.gltf
 for scene in out link; do
     alpenglow web in/$scene.gltf -q -o $scene.html 2>&1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of the files that a written .gltf refers to: OUT.bin, OUT.ao.bin, OUT.ao.png, OUT.ao.1.png,
+// Names of the files that a written .gltf refers to: OUT.bin, OUT.bake.bin, OUT.ao.png, OUT.ao.1.png,
 // OUT.orm.png, OUT.orm.1.png, OUT.light.png (or .ktx2 …), OUT.light.1.png.
 // A file baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
 #include "formats/gltf/write/gltf_names.h"
@@ -58,7 +58,7 @@ static char *image_path(alp_context *context, const char *stem, const alpi_outpu
 static bool fill_names(alp_context *context, const char *stem, alpi_gltf_names *names)
 {
     bool good = (names->bin = alpi_format(context, "%s.bin", stem)) != NULL &&
-                (names->data = alpi_format(context, "%s.ao.bin", stem)) != NULL &&
+                (names->data = alpi_format(context, "%s.bake.bin", stem)) != NULL &&
                 (names->bin_uri = alpi_uri_encode(context, alpi_path_name(names->bin))) != NULL &&
                 (names->data_uri = alpi_uri_encode(context, alpi_path_name(names->data))) != NULL;
     for (uint32_t i = 0; good && i < image_count(names); i++) {

@@ -458,7 +458,7 @@ TEST(a_gltf_gets_the_image_beside_it)
     char image[1100];
     snprintf(image, sizeof image, "%.*s.orm.png", (int)(ending - p.path), p.path);
     assert_int_equal(remove(p.path), 0);
-    snprintf(ending, 8, ".ao.bin");
+    snprintf(ending, 12, ".bake.bin");
     remove(p.path);
     snprintf(ending, 8, ".bin");
     assert_int_equal(remove(p.path), 0);

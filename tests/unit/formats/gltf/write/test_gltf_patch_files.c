@@ -20,7 +20,7 @@ TEST(files_beside_a_gltf)
     quad_bake bake = quad_open(quad_write_gltf(ASSET, plain), 2);
     bake.pages[1] = 1;
     quad_write(&bake, ".gltf");
-    assert_string_equal(quad_text(&bake, "buffers/1/uri"), "\"quad%20baked.ao.bin\"");
+    assert_string_equal(quad_text(&bake, "buffers/1/uri"), "\"quad%20baked.bake.bin\"");
     assert_string_equal(quad_text(&bake, "images/0/uri"), "\"quad%20baked.ao.png\"");
     assert_string_equal(quad_text(&bake, "images/1/uri"), "\"quad%20baked.ao.1.png\"");
     quad_require_corners(&bake, 0);
