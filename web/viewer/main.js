@@ -16,6 +16,7 @@ const message = document.getElementById('message');
 
 function stop(text) {
   canvas.hidden = true;
+  document.getElementById('panel').hidden = true;
   message.hidden = false;
   message.textContent = text;
 }
@@ -26,6 +27,7 @@ function makeRenderer() {
     stop('This browser has no WebGL 2, which the scene needs. Open the page in another browser, or switch hardware acceleration on.');
     return null;
   }
+  canvas.addEventListener('webglcontextlost', () => stop('The browser took the graphics memory of the scene away. Load the page again.'));
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
   renderer.setClearColor(0x26292d);
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -122,5 +124,9 @@ async function start(renderer) {
   document.documentElement.dataset.ready = 'true';
 }
 
-const renderer = makeRenderer();
-if (renderer !== null) start(renderer).catch((error) => stop(`The scene could not be shown: ${error.message}`));
+async function run() {
+  const renderer = makeRenderer();
+  if (renderer !== null) await start(renderer);
+}
+
+run().catch((error) => stop(`The scene could not be shown: ${error.message}`));

@@ -79,6 +79,9 @@ function addPlaces({ sphere }) {
 
 const metres = (value) => `${Number(value.toPrecision(3))} m`;
 
+/// A place to a hundredth of a cell, or better.
+const placeText = (place, cell) => `${Number(place.toFixed(Math.min(Math.max(2 - Math.floor(Math.log10(cell)), 0), 20)))} m`;
+
 /// The switch of the slice, its grid if there are several, its axis, and its place.
 function addSlices({ slices, state, show }) {
   if (slices === null) return;
@@ -87,7 +90,7 @@ function addSlices({ slices, state, show }) {
   element('slice-grid-line').hidden = slices.grids.length < 2;
   const draw = () => {
     const found = slices.show(Number(grid.value), Number(axis.value), Number(place.value));
-    value.textContent = `${metres(found.place)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
+    value.textContent = `${placeText(found.place, slices.grids[Number(grid.value)].cell)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
     place.setAttribute('aria-valuetext', value.textContent);
   };
   const start = () => {

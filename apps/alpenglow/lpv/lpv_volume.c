@@ -63,10 +63,11 @@ static void write_cells(FILE *stream, const alp_lpv_grid *g)
     }
 }
 
-/// @param origin of the scene in the world of its file, which has the corner with 15 digits
+/// Writes lengths with 15 digits: the corner may be far from the origin.
+/// @param origin of the scene in the world of its file
 static void write_grid(FILE *stream, const alp_lpv_grid *g, const double origin[3])
 {
-    fprintf(stream, "{\"cell\":%.9g,\"corner\":[%.15g,%.15g,%.15g],", g->cell,
+    fprintf(stream, "{\"cell\":%.15g,\"corner\":[%.15g,%.15g,%.15g],", g->cell,
             origin[0] + g->corner[0], origin[1] + g->corner[1], origin[2] + g->corner[2]);
     fprintf(stream, "\"size\":[%u,%u,%u],\"fluence\":[", g->size[0], g->size[1], g->size[2]);
     write_cells(stream, g);
