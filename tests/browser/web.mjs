@@ -119,8 +119,11 @@ async function checkPhone() {
   await label(page, 'light').tap();
   const change = await difference(page, await shoot(page), before);
   const wide = await page.evaluate(() => [document.body, document.getElementById('panel')].some((e) => e.scrollWidth > innerWidth));
+  const [picture, panel] = [await page.locator('#view').boundingBox(), await page.locator('#panel').boundingBox()];
+  check('phone, picture', picture.y + picture.height <= panel.y + 1 && picture.height > 300, `${picture.height} pixels high, above the panel`);
   await page.locator('#controls > summary').tap();
   check('phone, panel closed', await page.isHidden('#exposure'), 'a tap on its name closes it');
+  await page.waitForFunction((height) => document.getElementById('view').height > 1.2 * height, picture.height);
   check('phone', change > seen && !wide, `a tap changes the picture by ${change.toFixed(1)}/255; too wide: ${wide}`);
   await page.context().close();
 }

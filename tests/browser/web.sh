@@ -58,7 +58,7 @@ node - <<'END' # the same scene 2^19 m away: floats there are 6 cm apart
 const fs = require('fs');
 const scene = JSON.parse(fs.readFileSync('ao.gltf'));
 fs.writeFileSync('near.gltf', JSON.stringify(scene));
-scene.nodes.push({ translation: [524288, 0, 0], children: scene.scenes[0].nodes });
+scene.nodes.push({ translation: [0, 0, 524288], children: scene.scenes[0].nodes });
 scene.scenes[0].nodes = [scene.nodes.length - 1];
 fs.writeFileSync('far.gltf', JSON.stringify(scene));
 END

@@ -128,9 +128,10 @@ export async function checkGrids() {
   const before = await shoot(page);
   await page.selectOption('#slice-grid', '1');
   const change = await difference(page, await shoot(page), before);
-  const first = Math.round(-grids[1].corner[0] / grids[1].cell); // the scene reaches from 0, where a cell begins, to 0.556 m
-  const last = Math.floor((0.556 - grids[1].corner[0]) / grids[1].cell);
-  const place = grids[1].corner[0] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
+  check('first axis', (await page.inputValue('#slice-axis')) === '2', 'z, along which the camera looks');
+  const first = Math.round(-grids[1].corner[2] / grids[1].cell); // the scene reaches from 0 to 0.559 m, both sides of cells
+  const last = Math.round((0.5592 - grids[1].corner[2]) / grids[1].cell) - 1;
+  const place = grids[1].corner[2] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
   const text = await page.textContent('#slice-value');
   check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
   const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);

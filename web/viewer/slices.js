@@ -51,6 +51,12 @@ function rangeOf({ corner, cell, size }, axis, bounds) {
   return [first, Math.max(first, clamp(Math.ceil(cellsTo(bounds.max) - 1e-3) - 1))];
 }
 
+/// The axis whose slices face the camera most.
+function facingAxis(camera) {
+  const ahead = camera.getWorldDirection(new THREE.Vector3()).toArray().map(Math.abs);
+  return ahead.indexOf(Math.max(...ahead));
+}
+
 function makeQuad() {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(12), 3));
@@ -62,10 +68,10 @@ function makeQuad() {
 }
 
 /// @param grids [{ cell, corner, size, fluence }], the finest first   @param root the scene
-/// @param changed called after `show`
-/// @returns { scene, grids, range(grid, axis), show(grid, axis, layer) }; show returns { place, brightest },
-/// m and W/m²
-export function makeSlices(grids, root, changed) {
+/// @param camera that will see them first   @param changed called after `show`
+/// @returns { scene, grids, axis, range(grid, axis), show(grid, axis, layer) }: the first axis; show returns
+/// { place, brightest }, m and W/m²
+export function makeSlices(grids, root, camera, changed) {
   const bounds = new THREE.Box3().setFromObject(root);
   const quad = makeQuad();
   const scene = new THREE.Scene();
@@ -85,5 +91,5 @@ export function makeSlices(grids, root, changed) {
     changed();
     return { place: placeOf(grid, axis, layer), brightest };
   };
-  return { scene, grids, show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
+  return { scene, grids, axis: facingAxis(camera), show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
 }
