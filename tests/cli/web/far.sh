@@ -4,11 +4,11 @@
 . "$(dirname "$0")/../usage/helpers.bash"
 . "$(dirname "$0")/../scenes.bash"
 at() { # x, name: a room about (x, 0, 0), baked, with its light in space
-    room '{}' "$(lamp 0 "$1" 1 0)" '{"type":"point","intensity":20}' |
+    room '{"pbrMetallicRoughness":{"metallicFactor":0}}' "$(lamp 0 "$1" 1 0)" '{"type":"point","intensity":20}' |
         sed "s/\"name\":\"walls\"/&,\"translation\":[$1,0,0]/" >"$2.gltf"
     alpenglow bake "$2.gltf" -q -o "$2.glb" --maps light --samples 16 --size 16
     alpenglow lpv "$2.gltf" -q --grid 4 --frames 1 --volume "$2.lpv.json"
-    alpenglow probes "$2.gltf" -q -o "$2.probes.json" --spacing 1
+    alpenglow probes "$2.gltf" -q -o "$2.probes.json" --spacing 2
 }
 at 500000.25 far 2>/dev/null
 at 500100 farther 2>/dev/null
