@@ -18,7 +18,7 @@ alp_report_options alp_report_options_default(void)
     return (alp_report_options){.struct_size = sizeof(alp_report_options), .picture_samples = 8};
 }
 
-/// What the page is made of.
+/// The parts of the page.
 typedef struct report_job {
     const alp_scene *scene;
     const alp_lightmap *lightmap;
@@ -59,7 +59,8 @@ static void put_head(alpi_page *page, const report_job *job)
                         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src "
                         "'none'; style-src 'unsafe-inline'; img-src data:\"/>\n"
                         "<meta name=\"viewport\" content=\"width=device-width, "
-                        "initial-scale=1\"/>\n<title>");
+                        "initial-scale=1\"/>\n"
+                        "<meta name=\"generator\" content=\"alpenglow report\"/>\n<title>");
     alpi_page_text(page, job->scene->name, ALPI_REPORT_NAME);
     alpi_page_put(page, " – bake report</title>\n<style>\n");
     alpi_report_put_style(page);
@@ -72,7 +73,7 @@ static void put_head(alpi_page *page, const report_job *job)
     if (job->options.command != NULL) {
         put_command(page, job->options.command);
     }
-    // alpenglow web --report puts a link into this element.
+    // The command puts a link to the page of alpenglow web into this element.
     alpi_page_put(page, "<p id=\"web\"></p>\n");
     alpi_page_put(page, "</header>\n<main>\n");
 }

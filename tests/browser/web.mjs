@@ -3,9 +3,9 @@
 // and compares what they show with the pictures of alpenglow render.
 import { copyFile, readdir, stat } from 'node:fs/promises';
 import path from 'node:path';
-import { chromium } from 'playwright-core';
-import { browser, check, compare, difference, exposure, faults, folder, label, open, program, ready, render, seen, shoot, toggle } from './web_pages.mjs';
-import { checkGrids, checkProbes, checkSlices } from './web_space.mjs';
+import { browser, check, compare, difference, exposure, faults, folder, label, open, ready, render, seen, shoot, toggle } from './web_pages.mjs';
+import { checkFailures, checkForeign, checkMessages } from './web_faults.mjs';
+import { checkFar, checkGrids, checkProbes, checkSlices } from './web_space.mjs';
 
 /// The page of a scene with light, its exposure, and its switches.
 async function checkLight(scene) {
@@ -119,38 +119,13 @@ async function checkPhone() {
   await label(page, 'light').tap();
   const change = await difference(page, await shoot(page), before);
   const wide = await page.evaluate(() => [document.body, document.getElementById('panel')].some((e) => e.scrollWidth > innerWidth));
+  const [picture, panel] = [await page.locator('#view').boundingBox(), await page.locator('#panel').boundingBox()];
+  check('phone, picture', picture.y + picture.height <= panel.y + 1 && picture.height > 300, `${picture.height} pixels high, above the panel`);
   await page.locator('#controls > summary').tap();
   check('phone, panel closed', await page.isHidden('#exposure'), 'a tap on its name closes it');
+  await page.waitForFunction((height) => document.getElementById('view').height > 1.2 * height, picture.height);
   check('phone', change > seen && !wide, `a tap changes the picture by ${change.toFixed(1)}/255; too wide: ${wide}`);
   await page.context().close();
-}
-
-async function checkMessages() {
-  const blind = await open('ao.gltf.html', {}, () => {
-    HTMLCanvasElement.prototype.getContext = () => null;
-  });
-  const text = await blind.textContent('#message');
-  check('no WebGL', /has no WebGL 2/.test(text) && (await blind.isHidden('#view')), text);
-  await blind.context().close();
-  const without = await chromium.launch({ ...program, args: ['--disable-gpu', '--disable-3d-apis'] });
-  const plain = await without.newPage();
-  await plain.goto(`file://${path.join(folder, 'ao.gltf.html')}`);
-  const told = plain.locator('#message', { hasText: 'has no WebGL 2' });
-  await told.waitFor({ timeout: 10000 }).catch(() => {});
-  check('Chromium without WebGL', (await told.isVisible()) && (await plain.isHidden('#panel')), 'says so, without a panel');
-  await without.close();
-  const hostile = await open('hostile.html');
-  await ready(hostile);
-  const name = await hostile.textContent('#name');
-  check('name', name === '<img src=x onerror=alert(1)>.gltf' && (await hostile.locator('img').count()) === 0, name);
-  const licence = await hostile.textContent('#licence');
-  check('licence', /MIT License[^]*three\.js authors[^]*NONINFRINGEMENT/.test(licence), `${licence.length} characters`);
-  await hostile.context().close();
-  const other = await open('other.html');
-  await ready(other);
-  const note = await other.textContent('#notes');
-  check('lights of another bake', /hold light of another bake/.test(note), note);
-  await other.context().close();
 }
 
 /// The link of a report leads to the page.
@@ -175,6 +150,9 @@ await checkProbes();
 await checkCamera();
 await checkPhone();
 await checkMessages();
+await checkFailures();
+await checkForeign();
+await checkFar();
 await checkReport();
 const { size } = await stat(path.join(folder, 'ao.gltf.html'));
 check('size', size < 4e6, `${(size / 1e6).toFixed(1)} of 4 MB`);

@@ -53,4 +53,19 @@ layers bright --lightmap-as extras --lightmap-format exr --lamp 0.2,0.3,0.3,4e5,
 "$alpenglow" web small.glb -q -o 'the page #1 & 100 %.html' --report report.html
 cp ao.gltf '<img src=x onerror=alert(1)>.gltf'
 "$alpenglow" web '<img src=x onerror=alert(1)>.gltf' -q -o hostile.html
+sed 's/^import/nonsense/' ao.gltf.html >broken.html
+node - <<'END' # the same scene 2^19 m away: floats there are 6 cm apart
+const fs = require('fs');
+const scene = JSON.parse(fs.readFileSync('ao.gltf'));
+fs.writeFileSync('near.gltf', JSON.stringify(scene));
+scene.nodes.push({ translation: [0, 0, 524288], children: scene.scenes[0].nodes });
+scene.scenes[0].nodes = [scene.nodes.length - 1];
+fs.writeFileSync('far.gltf', JSON.stringify(scene));
+END
+for place in near far; do
+    "$alpenglow" bake $place.gltf --size 64 -q -o $place.glb --maps light --samples 16
+    "$alpenglow" probes $place.gltf -o $place.probes.json --spacing 0.2 -q
+    "$alpenglow" lpv $place.gltf --grid 16 --frames 1 --volume $place.lpv.json -q
+    "$alpenglow" web $place.glb -q -o $place.html --probes $place.probes.json --volume $place.lpv.json
+done
 node "$here/web.mjs" "$folder" "$alpenglow"

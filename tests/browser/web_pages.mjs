@@ -24,18 +24,19 @@ export function check(name, good, text) {
   if (!good) faults.push(name);
 }
 
-/// A page whose console must stay silent, and which may ask for nothing but itself.
-export async function open(name, options = {}, before = () => {}) {
+/// A page whose console must stay silent, and which may request nothing but itself.
+/// @param before runs in the page before its scripts   @param fails faults in the console and requests are expected
+export async function open(name, options = {}, before = () => {}, fails = false) {
   const context = await browser.newContext({ viewport: { width: side, height: side }, ...options });
   const page = await context.newPage();
   await page.addInitScript(before);
   const address = `file://${encodeURI(path.join(folder, name))}`;
-  page.on('pageerror', (error) => check(name, false, String(error)));
+  page.on('pageerror', (error) => fails || check(name, false, String(error)));
   page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type()) && !/GL Driver Message/.test(message.text())) check(name, false, message.text());
+    if (!fails && ['error', 'warning'].includes(message.type()) && !/GL Driver Message/.test(message.text())) check(name, false, message.text());
   });
   page.on('request', (request) => {
-    if (request.url() !== address && !/^(blob|data):/.test(request.url())) check(name, false, `requests ${request.url()}`);
+    if (!fails && request.url() !== address && !/^(blob|data):/.test(request.url())) check(name, false, `requests ${request.url()}`);
   });
   await page.goto(address);
   return page;
@@ -82,6 +83,11 @@ export async function render(scene, ...options) {
   const words = ['render', path.join(folder, scene), '-f', '-o', file, '--resolution', `${side}x${side}`, ...options];
   const printed = execFileSync(alpenglow, words, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] });
   return { png: await readFile(file), exposure: Number(/exposure +(\S+) EV/.exec(printed)?.[1]) };
+}
+
+/// Writes the page of a scene beside it, SCENE.html.
+export function writePage(scene) {
+  execFileSync(alpenglow, ['web', path.join(folder, scene), '-q', '-f', '-o', path.join(folder, `${scene}.html`)], { stdio: ['ignore', 'ignore', 'ignore'] });
 }
 
 export async function compare(page, name, picture) {

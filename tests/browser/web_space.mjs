@@ -93,7 +93,7 @@ export async function checkSlices() {
   check('slice', change > seen, `changes the picture by ${change.toFixed(1)}/255`);
   const [grid] = JSON.parse(await readFile(path.join(folder, 'cornell.lpv.json'), 'utf8')).grids;
   const text = await page.textContent('#slice-value');
-  const layer = Math.floor(-grid.corner[2] / grid.cell) + 3; // the scene begins at z = 0
+  const layer = Math.round(-grid.corner[2] / grid.cell) + 3; // the scene begins at z = 0, with a cell
   const place = grid.corner[2] + (layer + 0.5) * grid.cell;
   check('slice place', Math.abs(parseFloat(text) - place) < 1e-3, `${text}, layer ${layer} at ${place.toFixed(4)} m`);
   await page.locator('#controls > summary').click();
@@ -128,12 +128,40 @@ export async function checkGrids() {
   const before = await shoot(page);
   await page.selectOption('#slice-grid', '1');
   const change = await difference(page, await shoot(page), before);
-  const first = Math.floor(-grids[1].corner[0] / grids[1].cell); // the scene reaches from 0 to 0.556 m
-  const last = Math.floor((0.556 - grids[1].corner[0]) / grids[1].cell);
-  const place = grids[1].corner[0] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
+  check('first axis', (await page.inputValue('#slice-axis')) === '2', 'z, along which the camera looks');
+  const first = Math.round(-grids[1].corner[2] / grids[1].cell); // the scene reaches from 0 to 0.559 m, both sides of cells
+  const last = Math.round((0.5592 - grids[1].corner[2]) / grids[1].cell) - 1;
+  const place = grids[1].corner[2] + (Math.round((first + last) / 2) + 0.5) * grids[1].cell;
   const text = await page.textContent('#slice-value');
   check('coarse grid', change > 0 && Math.abs(parseFloat(text) - place) < 1e-3, `${text}; changes the picture by ${change.toFixed(1)}/255`);
   const wide = await page.evaluate(() => document.getElementById('panel').scrollWidth > innerWidth);
   check('grids, phone', !wide, 'the panel fits');
   await page.context().close();
+}
+
+/// Pictures of a page with its sphere alone, and with a slice too.
+async function shootSpace(name) {
+  const page = await open(name);
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  const sphere = await shoot(page);
+  await toggle(page, 'slices');
+  await page.focus('#slice-place');
+  await page.keyboard.press('Home');
+  for (let i = 0; i < 3; i++) await page.keyboard.press('ArrowRight');
+  const slice = await shoot(page);
+  return { page, sphere, slice, place: parseFloat(await page.textContent('#slice-value')) };
+}
+
+/// A scene 524 km away looks like the same scene at the origin: its sphere, its slice, and their places.
+export async function checkFar() {
+  const near = await shootSpace('near.html');
+  const far = await shootSpace('far.html');
+  for (const key of ['sphere', 'slice']) {
+    const apart = await difference(near.page, far[key], near[key]);
+    check(`far ${key}`, apart < 0.1, `differs from the near one by ${apart.toFixed(3)}/255`);
+  }
+  check('far place', Math.abs(far.place - near.place - 524288) < 2e-3, `${far.place} m, near ${near.place} m`);
+  await near.page.context().close();
+  await far.page.context().close();
 }

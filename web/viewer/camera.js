@@ -38,13 +38,23 @@ function targetOf(camera, box) {
   return camera.position.clone().addScaledVector(ahead, Math.max(middle.dot(ahead), size / 20));
 }
 
-/// @returns { camera, controls, reset, turn, dolly }
+/// Fits the camera to a picture. One higher than wide shows as much from left to right as a square.
+/// @param fov of a square picture, degrees
+function fit(camera, fov, width, height) {
+  camera.aspect = width / height;
+  const slope = Math.tan(THREE.MathUtils.degToRad(fov / 2)) / Math.min(camera.aspect, 1);
+  camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(slope));
+  camera.updateProjectionMatrix();
+}
+
+/// @returns { camera, controls, fit(width, height), reset, turn, dolly }
 export function makeCamera(gltf, canvas) {
   const box = boundsOf(gltf.scene);
   const size = box.getSize(new THREE.Vector3()).length() || 1;
   const camera = fromFile(gltf) ?? automatic(box);
   camera.near = Math.max(camera.near, size * 1e-4);
   camera.far = Math.max(size, camera.position.distanceTo(box.getCenter(new THREE.Vector3()))) * 10;
+  const { fov } = camera;
   const target = targetOf(camera, box);
   const start = { position: camera.position.clone(), quaternion: camera.quaternion.clone() };
   const controls = new OrbitControls(camera, canvas); // turns the camera
@@ -56,7 +66,7 @@ export function makeCamera(gltf, canvas) {
     camera.quaternion.copy(start.quaternion);
   };
   reset();
-  return { camera, controls, reset, turn: (x, y) => turn(camera, controls, x, y), dolly: (f) => dolly(camera, controls, f) };
+  return { camera, controls, fit: (width, height) => fit(camera, fov, width, height), reset, turn: (x, y) => turn(camera, controls, x, y), dolly: (f) => dolly(camera, controls, f) };
 }
 
 function turn(camera, controls, x, y) {

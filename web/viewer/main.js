@@ -16,6 +16,7 @@ const message = document.getElementById('message');
 
 function stop(text) {
   canvas.hidden = true;
+  document.getElementById('panel').hidden = true;
   message.hidden = false;
   message.textContent = text;
 }
@@ -26,6 +27,7 @@ function makeRenderer() {
     stop('This browser has no WebGL 2, which the scene needs. Open the page in another browser, or switch hardware acceleration on.');
     return null;
   }
+  canvas.addEventListener('webglcontextlost', () => stop('The browser took the graphics memory of the scene away. Load the page again.'));
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
   renderer.setClearColor(0x26292d);
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
@@ -47,10 +49,11 @@ function removeLamps(root, bake) {
   for (const lamp of root.getObjectsByProperty('isLight', true)) lamp.removeFromParent();
 }
 
-function resize(renderer, camera) {
-  renderer.setSize(innerWidth, innerHeight, false);
-  camera.aspect = innerWidth / innerHeight;
-  camera.updateProjectionMatrix();
+function resize(renderer, view) {
+  const { clientWidth, clientHeight } = canvas;
+  if (clientWidth === 0 || clientHeight === 0) return;
+  renderer.setSize(clientWidth, clientHeight, false);
+  view.fit(clientWidth, clientHeight);
 }
 
 /// Dimmers for the lights, and how far the sum of their maps is from the light of the file.
@@ -96,7 +99,7 @@ async function start(renderer) {
     waits = true;
   };
   const sphere = probes !== null ? makeSphere(probes, view, canvas, request) : null;
-  const slices = grids.length > 0 ? makeSlices(grids, gltf.scene, request) : null;
+  const slices = grids.length > 0 ? makeSlices(grids, gltf.scene, view.camera, request) : null;
   const film = (exposure) => {
     setFilm(renderer, state.light, exposure);
     request();
@@ -110,11 +113,11 @@ async function start(renderer) {
     request();
   };
   show();
-  resize(renderer, view.camera);
-  addEventListener('resize', () => {
-    resize(renderer, view.camera);
-    request();
-  });
+  resize(renderer, view);
+  new ResizeObserver(() => {
+    resize(renderer, view);
+    draw(); // before the empty canvas is seen
+  }).observe(canvas);
   view.controls.addEventListener('change', request);
   buildPanel({ name, found, layers, apart, dim, sphere, slices, state, show, film, view, request, measure: () => (state.light ? meter(renderer, scene, view.camera) : 0) });
   message.hidden = true;
@@ -122,5 +125,9 @@ async function start(renderer) {
   document.documentElement.dataset.ready = 'true';
 }
 
-const renderer = makeRenderer();
-if (renderer !== null) start(renderer).catch((error) => stop(`The scene could not be shown: ${error.message}`));
+async function run() {
+  const renderer = makeRenderer();
+  if (renderer !== null) await start(renderer);
+}
+
+run().catch((error) => stop(`The scene could not be shown: ${error.message}`));

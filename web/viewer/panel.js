@@ -53,12 +53,18 @@ function addDimmers({ layers, dim, request }) {
   });
 }
 
+const metres = (value) => `${Number(value.toPrecision(3))} m`;
+
+/// A place to a hundredth of a cell, or better.
+const placeText = (place, cell) => `${Number(place.toFixed(Math.min(Math.max(2 - Math.floor(Math.log10(cell)), 0), 20)))} m`;
+
 /// A slider for each axis of the sphere's place; they follow when it is dragged.
 function addPlaces({ sphere }) {
   if (sphere === null) return;
   const sliders = ['x', 'y', 'z'].map((axis) => {
     const line = document.createElement('label');
     line.className = 'slider';
+    const value = document.createElement('output');
     const slider = document.createElement('input');
     const range = { min: sphere.bounds.low[axis], max: sphere.bounds.high[axis] };
     Object.assign(slider, { type: 'range', id: `sphere-${axis}`, step: (range.max - range.min) / 200 || 1, ...range });
@@ -66,18 +72,21 @@ function addPlaces({ sphere }) {
       const point = sphere.position.clone();
       point[axis] = Number(slider.value);
       sphere.place(point);
+      follow();
     });
-    line.append(`Sphere ${axis}`, slider);
+    line.htmlFor = slider.id; // an output could be labelled too
+    line.append(`Sphere ${axis}`, value, slider);
     element('places').append(line);
-    return { axis, slider };
+    return { axis, slider, value };
   });
-  const follow = () => sliders.forEach(({ axis, slider }) => (slider.value = sphere.position[axis]));
+  const follow = () => sliders.forEach(({ axis, slider, value }) => {
+    slider.value = sphere.position[axis];
+    value.textContent = placeText(sphere.position[axis], slider.step);
+  });
   document.addEventListener('pointermove', follow);
   sphere.place(sphere.bounds.low.clone().lerp(sphere.bounds.high, 0.5));
   follow();
 }
-
-const metres = (value) => `${Number(value.toPrecision(3))} m`;
 
 /// The switch of the slice, its grid if there are several, its axis, and its place.
 function addSlices({ slices, state, show }) {
@@ -87,7 +96,7 @@ function addSlices({ slices, state, show }) {
   element('slice-grid-line').hidden = slices.grids.length < 2;
   const draw = () => {
     const found = slices.show(Number(grid.value), Number(axis.value), Number(place.value));
-    value.textContent = `${metres(found.place)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
+    value.textContent = `${placeText(found.place, slices.grids[Number(grid.value)].cell)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
     place.setAttribute('aria-valuetext', value.textContent);
   };
   const start = () => {
@@ -102,6 +111,7 @@ function addSlices({ slices, state, show }) {
   grid.addEventListener('change', start);
   axis.addEventListener('change', start);
   place.addEventListener('input', draw);
+  axis.value = slices.axis;
   start();
 }
 

@@ -29,22 +29,32 @@ function readLayer({ size, fluence }, axis, layer) {
 /// The place of the middle of a layer, in metres.
 const placeOf = ({ corner, cell }, axis, layer) => corner[axis] + (layer + 0.5) * cell;
 
-/// Corners of the slice, [4][3], in the order of the texture's rows.
+/// Corners of the slice from the corner of the grid, [4][3], in the order of the texture's rows. Floats
+/// hold them also where the grid is far from the origin.
 function cornersOf(grid, axis, layer) {
   const [u, v] = acrossOf(axis);
   return [[0, 0], [1, 0], [0, 1], [1, 1]].flatMap(([a, b]) => {
     const point = [0, 0, 0];
-    point[axis] = placeOf(grid, axis, layer);
-    point[u] = grid.corner[u] + a * grid.size[u] * grid.cell;
-    point[v] = grid.corner[v] + b * grid.size[v] * grid.cell;
+    point[axis] = (layer + 0.5) * grid.cell;
+    point[u] = a * grid.size[u] * grid.cell;
+    point[v] = b * grid.size[v] * grid.cell;
     return point;
   });
 }
 
-/// The first and the last layer across an axis that touch the scene.
+/// The first and the last layer across an axis that hold part of the scene. A scene often ends where a
+/// cell does: a thousandth of a cell is no part.
 function rangeOf({ corner, cell, size }, axis, bounds) {
-  const layerAt = (place) => THREE.MathUtils.clamp(Math.floor((place - corner[axis]) / cell), 0, size[axis] - 1);
-  return [layerAt(bounds.min.getComponent(axis)), layerAt(bounds.max.getComponent(axis))];
+  const clamp = (layer) => THREE.MathUtils.clamp(layer, 0, size[axis] - 1);
+  const cellsTo = (point) => (point.getComponent(axis) - corner[axis]) / cell;
+  const first = clamp(Math.floor(cellsTo(bounds.min) + 1e-3));
+  return [first, Math.max(first, clamp(Math.ceil(cellsTo(bounds.max) - 1e-3) - 1))];
+}
+
+/// The axis whose slices face the camera most.
+function facingAxis(camera) {
+  const ahead = camera.getWorldDirection(new THREE.Vector3()).toArray().map(Math.abs);
+  return ahead.indexOf(Math.max(...ahead));
 }
 
 function makeQuad() {
@@ -58,10 +68,10 @@ function makeQuad() {
 }
 
 /// @param grids [{ cell, corner, size, fluence }], the finest first   @param root the scene
-/// @param changed called after `show`
-/// @returns { scene, grids, range(grid, axis), show(grid, axis, layer) }; show returns { place, brightest },
-/// m and W/m²
-export function makeSlices(grids, root, changed) {
+/// @param camera that will see them first   @param changed called after `show`
+/// @returns { scene, grids, axis, range(grid, axis), show(grid, axis, layer) }: the first axis; show returns
+/// { place, brightest }, m and W/m²
+export function makeSlices(grids, root, camera, changed) {
   const bounds = new THREE.Box3().setFromObject(root);
   const quad = makeQuad();
   const scene = new THREE.Scene();
@@ -77,8 +87,9 @@ export function makeSlices(grids, root, changed) {
     quad.material.needsUpdate = true;
     quad.geometry.attributes.position.array.set(cornersOf(grid, axis, layer));
     quad.geometry.attributes.position.needsUpdate = true;
+    quad.position.fromArray(grid.corner);
     changed();
     return { place: placeOf(grid, axis, layer), brightest };
   };
-  return { scene, grids, show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
+  return { scene, grids, axis: facingAxis(camera), show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
 }

@@ -58,28 +58,19 @@ static char *read_page(void)
     return page;
 }
 
-/// Loads the scene as all commands do, so that faults have the same messages.
-/// @param out its bounds
-static int check_scene(const command_line *a, message_log *messages, web_scene *out)
+/// Loads the scene as all commands do, so that faults have the same messages. Finds its bounds.
+static int check_scene(const command_line *a, web_scene *out)
 {
-    alp_context *context = NULL;
     alp_scene *scene = NULL;
-    alp_context_options options = alp_context_options_default();
-    options.log = messages_log;
-    options.log_user = messages;
-    if (alp_context_create(&options, &context) != ALP_OK) {
-        return failure("out of memory");
-    }
-    const int code = alp_scene_load(context, a->operands[0], &scene) == ALP_OK
-                         ? EXIT_DONE
-                         : failure(alp_context_message(context));
-    for (int k = 0; k < 3 && code == EXIT_DONE; k++) {
+    const int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
+    if (code == EXIT_DONE) {
         const alp_scene_info info = alp_scene_get_info(scene);
-        out->bounds[0][k] = (double)info.bounds_min[k];
-        out->bounds[1][k] = (double)info.bounds_max[k];
+        for (int k = 0; k < 3; k++) {
+            out->bounds[0][k] = info.origin[k] + (double)info.bounds_min[k];
+            out->bounds[1][k] = info.origin[k] + (double)info.bounds_max[k];
+        }
     }
     alp_scene_destroy(scene);
-    alp_context_destroy(context);
     return code;
 }
 
@@ -113,7 +104,8 @@ static int write_page(const char *page, const web_scene *scene, const command_li
 static int read_scene(const command_line *a, message_log *messages, web_scene *scene)
 {
     const option_value *values = a->values;
-    int code = web_scene_read(scene, a->operands[0], messages);
+    int code = check_scene(a, scene);
+    code = code == EXIT_DONE ? web_scene_read(scene, a->operands[0], messages) : code;
     if (code == EXIT_DONE && values[OPTION_MAPS_FOLDER].given) {
         code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text);
     }
@@ -128,13 +120,20 @@ static int read_scene(const command_line *a, message_log *messages, web_scene *s
 
 static int run(const command_line *a, message_log *messages)
 {
-    char *page = read_page();
     web_scene scene = {0};
-    int code = page != NULL ? check_scene(a, messages, &scene) : EXIT_FAILED;
-    code = code == EXIT_DONE ? read_scene(a, messages, &scene) : code;
+    alp_context_options options = alp_context_options_default();
+    options.log = messages_log;
+    options.log_user = messages;
+    if (alp_context_create(&options, &scene.context) != ALP_OK) {
+        return failure("out of memory");
+    }
+    alp_context *context = scene.context;
+    char *page = read_page();
+    int code = page != NULL ? read_scene(a, messages, &scene) : EXIT_FAILED;
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
     code = code == EXIT_DONE ? web_report_write(a) : code;
     web_scene_release(&scene);
+    alp_context_destroy(context);
     free(page);
     return code;
 }

@@ -63,27 +63,30 @@ static void write_cells(FILE *stream, const alp_lpv_grid *g)
     }
 }
 
-static void write_grid(FILE *stream, const alp_lpv_grid *g)
+/// Writes lengths with 15 digits: the corner may be far from the origin.
+/// @param origin of the scene in the world of its file
+static void write_grid(FILE *stream, const alp_lpv_grid *g, const double origin[3])
 {
-    fprintf(stream, "{\"cell\":%.9g,\"corner\":[%.9g,%.9g,%.9g],\"size\":[%u,%u,%u],\"fluence\":[",
-            g->cell, g->corner[0], g->corner[1], g->corner[2], g->size[0], g->size[1], g->size[2]);
+    fprintf(stream, "{\"cell\":%.15g,\"corner\":[%.15g,%.15g,%.15g],", g->cell,
+            origin[0] + g->corner[0], origin[1] + g->corner[1], origin[2] + g->corner[2]);
+    fprintf(stream, "\"size\":[%u,%u,%u],\"fluence\":[", g->size[0], g->size[1], g->size[2]);
     write_cells(stream, g);
     fputs("]}", stream);
 }
 
 static void write_document(FILE *stream, const lpv_run *run)
 {
-    const uint64_t hash = alp_scene_get_info(run->session->scene).hash;
+    const alp_scene_info info = alp_scene_get_info(run->session->scene);
     fprintf(stream,
             "{\"format\":\"alpenglow-volume\",\n\"version\":1,\n\"generator\":\"Alpenglow %s\",\n"
             "\"quantity\":\"fluence\",\n\"units\":\"W/m2\",\n\"scene\":{\"hash\":\"%016llx\"},\n"
             "\"grids\":[",
-            alp_version(), (unsigned long long)hash);
+            alp_version(), (unsigned long long)info.hash);
     for (uint32_t c = 0; c < run->options.cascades; c++) {
         alp_lpv_grid grid;
         alp_lpv_get_grid(run->lpv, c, &grid);
         fputs(c > 0 ? ",\n" : "\n", stream);
-        write_grid(stream, &grid);
+        write_grid(stream, &grid, info.origin);
     }
     fputs("]}\n", stream);
 }

@@ -177,8 +177,9 @@ static const option rows[] = {
      .value = "OUT.html",
      .help = "Write a report as one HTML page: figures, a picture of the scene, warnings, "
              "pictures of the maps and their errors, time of each stage, objects on the atlas. It "
-             "loads "
-             "nothing and runs no script. It has the first 16 pages of an atlas."},
+             "loads nothing and runs no script. It has the first 16 pages of an atlas. It links "
+             "a page of alpenglow web beside it: the one that the replaced report linked, else "
+             "the one with the name of -o, OUT.html for OUT.glb."},
     {.id = OPTION_JSON,
      .commands = IN_COMPARE,
      .group = GROUP_OUTPUT,

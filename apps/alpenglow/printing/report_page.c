@@ -3,6 +3,7 @@
 #include "printing/report_page.h"
 
 #include "output.h"
+#include "web/report_link.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -87,9 +88,14 @@ int report_page_write(session *s, const alp_lightmap *lightmap, const alp_bake_r
     options.overwrite = a->values[OPTION_FORCE].given;
     alp_bake_report whole = *report;
     whole.seconds_load = s->load_seconds;
-    const alp_result result =
-        alp_bake_write_report(s->scene, lightmap, &whole, &options, a->values[OPTION_REPORT].text);
+    const char *path = a->values[OPTION_REPORT].text;
+    char *linked = report_link_find(path, a->values[OPTION_OUTPUT].text);
+    int code = session_end(s, alp_bake_write_report(s->scene, lightmap, &whole, &options, path));
+    if (code == EXIT_DONE && linked != NULL) {
+        code = report_link_write(path, linked);
+    }
+    free(linked);
     free(command);
     free(findings);
-    return session_end(s, result);
+    return code;
 }

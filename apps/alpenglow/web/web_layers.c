@@ -62,17 +62,11 @@ static json_int_t light_number(const web_scene *scene, const char *key)
 /// Whether the library reads the file, and it has the size of the light in the scene.
 static int check_image(const web_scene *scene, const char *path, const web_file *layer)
 {
-    alp_context *context = NULL;
-    alp_image *image = NULL;
     if (is_scaled(layer)) {
         return web_fail(path, "its values are scaled; bake again with --maps-as exr");
     }
-    if (alp_context_create(NULL, &context) != ALP_OK) {
-        return failure("out of memory");
-    }
-    int code = alp_image_load(context, path, &image) == ALP_OK
-                   ? EXIT_DONE
-                   : failure(alp_context_message(context));
+    alp_image *image = NULL;
+    int code = web_scene_end(scene, alp_image_load(scene->context, path, &image));
     const json_int_t size = light_number(scene, "size");
     const uint32_t width = code == EXIT_DONE ? alp_image_get_info(image).width : 0;
     if (code == EXIT_DONE && size > 0 && size != (json_int_t)width) {
@@ -84,7 +78,6 @@ static int check_image(const web_scene *scene, const char *path, const web_file 
         code = web_fail(path, text);
     }
     alp_image_destroy(image);
-    alp_context_destroy(context);
     return code;
 }
 

@@ -9,22 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Loads the probes as all commands do: sizes and checksums are right then.
-static int check_probes(const char *path)
-{
-    alp_context *context = NULL;
-    alp_probes *probes = NULL;
-    if (alp_context_create(NULL, &context) != ALP_OK) {
-        return failure("out of memory");
-    }
-    const int code = alp_probes_load(context, path, &probes) == ALP_OK
-                         ? EXIT_DONE
-                         : failure(alp_context_message(context));
-    alp_probes_destroy(probes);
-    alp_context_destroy(context);
-    return code;
-}
-
 /// Reads the texture that the JSON names, in its folder.
 static int read_texture(web_scene *scene, const char *path)
 {
@@ -64,7 +48,9 @@ static int check_place(const web_scene *scene, const char *path, message_log *me
 
 int web_scene_read_probes(web_scene *scene, const char *path, message_log *messages)
 {
-    int code = check_probes(path);
+    alp_probes *probes = NULL; // loading checks sizes and sums
+    int code = web_scene_end(scene, alp_probes_load(scene->context, path, &probes));
+    alp_probes_destroy(probes);
     if (code != EXIT_DONE) {
         return code;
     }

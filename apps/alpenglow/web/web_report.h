@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The link to the page in a report of bake --report.
+// The option --report of web: a link to the page in a report of bake --report.
 #ifndef COMMAND_WEB_REPORT_H
 #define COMMAND_WEB_REPORT_H
 

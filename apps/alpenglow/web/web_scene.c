@@ -2,25 +2,14 @@
 #include "web/web_scene.h"
 
 #include "options/options.h"
-#include "output.h"
-
-#include <alpenglow/context.h>
 
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
-
-int web_fail(const char *path, const char *text)
-{
-    fputs("alpenglow: ", stderr);
-    print_clean(stderr, path);
-    fprintf(stderr, ": %s\n", text);
-    return EXIT_FAILED;
-}
 
 void web_report(message_log *messages, alp_log_level level, const char *code, const char *object,
                 const char *text)
@@ -29,55 +18,9 @@ void web_report(message_log *messages, alp_log_level level, const char *code, co
     messages_log(messages, &logged);
 }
 
-/// Bytes of a file that a page may hold: four thirds of them are the longest text of a browser.
-enum { FILE_LIMIT = 400000000 };
-static const char too_large[] = "has over 400 MB, more than a browser reads as one text; bake with "
-                                "smaller maps (--size)";
-
-/// What errno says.
-static const char *reason_of(int number)
+int web_scene_end(const web_scene *scene, alp_result result)
 {
-    return number == EFBIG ? too_large : strerror(number);
-}
-
-/// The bytes of an ordinary file and a 0. NULL with errno.
-static char *read_bytes(const char *path, size_t *size)
-{
-    struct stat about;
-    FILE *file = fopen(path, "rb");
-    if (file == NULL) {
-        return NULL;
-    }
-    char *bytes = NULL;
-    errno = 0;
-    if (fstat(fileno(file), &about) == 0 && S_ISREG(about.st_mode)) {
-        if (about.st_size > FILE_LIMIT) {
-            fclose(file);
-            errno = EFBIG;
-            return NULL;
-        }
-        *size = (size_t)about.st_size;
-        bytes = allocate_or_exit(NULL, *size + 1);
-        bytes[*size] = '\0';
-    }
-    if (bytes != NULL && fread(bytes, 1, *size, file) != *size) {
-        free(bytes);
-        bytes = NULL;
-    }
-    if (bytes == NULL && errno == 0) {
-        errno = S_ISDIR(about.st_mode) ? EISDIR : EIO;
-    }
-    fclose(file);
-    return bytes;
-}
-
-char *web_read_file(const char *path, size_t *size)
-{
-    char *bytes = read_bytes(path, size);
-    if (bytes == NULL) {
-        web_fail(path, reason_of(errno));
-    }
-    return bytes;
+    return result == ALP_OK ? EXIT_DONE : failure(alp_context_message(scene->context));
 }
 
 static size_t read_u32(const char *bytes)
@@ -100,28 +43,6 @@ static json_t *parse(const web_scene *scene)
         length -= 3;
     }
     return json_loadb(text, length, JSON_ALLOW_NUL, NULL);
-}
-
-static int hex_digit(char c)
-{
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
-/// Decodes %20 and the like in place.
-static void decode_uri(char *text)
-{
-    char *to = text;
-    for (const char *at = text; *at != '\0'; to++) {
-        const int high = at[0] == '%' ? hex_digit(at[1]) : -1;
-        const int low = high >= 0 ? hex_digit(at[2]) : -1;
-        const bool coded = low >= 0 && 16 * high + low != 0;
-        *to = coded ? (char)(16 * high + low) : *at;
-        at += coded ? 3 : 1;
-    }
-    *to = '\0';
 }
 
 /// The path of a file that lies below the folder of the asset, links resolved. False with a reason.
@@ -174,12 +95,12 @@ static void add_file(web_scene *scene, const json_t *value, message_log *message
         failure("out of memory");
         exit(EXIT_FAILED);
     }
-    decode_uri(name);
+    web_decode_address(name);
     if (name[0] == '/') {
         reason = "lies outside of the folder of the scene";
     } else if (find_file(scene->path, name, path, &reason)) {
-        file.bytes = read_bytes(path, &file.size);
-        reason = reason_of(errno);
+        file.bytes = web_read_bytes(path, &file.size);
+        reason = web_reason(errno);
     }
     free(name);
     if (file.bytes == NULL) {
@@ -277,17 +198,30 @@ int web_scene_read(web_scene *scene, const char *path, message_log *messages)
     return EXIT_DONE;
 }
 
+/// Significant digits of a place, so that it is told to a hundredth of the scene's size.
+static int digits_of(const web_scene *scene, double place)
+{
+    double side = 0.0;
+    for (int k = 0; k < 3; k++) {
+        side = fmax(side, scene->bounds[1][k] - scene->bounds[0][k]);
+    }
+    const double ratio = fabs(place) / side;
+    return ratio > 1.0 && ratio < 1e12 ? 3 + (int)ceil(log10(ratio)) : 3;
+}
+
 int web_scene_check_place(const web_scene *scene, const char *path, const json_t *document,
                           const double low[3], const double high[3], message_log *messages)
 {
     const double *first = scene->bounds[0], *last = scene->bounds[1];
     for (int k = 0; k < 3; k++) {
         if (high[k] < first[k] || low[k] > last[k]) {
+            const int told = digits_of(scene, fmax(fabs(low[k]), fabs(high[k])));
+            const int own = digits_of(scene, fmax(fabs(first[k]), fabs(last[k])));
             char text[256];
             snprintf(text, sizeof text,
-                     "lies outside of the scene, from %.3g to %.3g m along %c, where the scene "
-                     "reaches from %.3g to %.3g m; make it of this scene",
-                     low[k], high[k], "xyz"[k], first[k], last[k]);
+                     "lies outside of the scene, from %.*g to %.*g m along %c, where the scene "
+                     "reaches from %.*g to %.*g m; make it of this scene",
+                     told, low[k], told, high[k], "xyz"[k], own, first[k], own, last[k]);
             return web_fail(path, text);
         }
     }

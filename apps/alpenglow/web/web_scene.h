@@ -4,6 +4,9 @@
 #define COMMAND_WEB_SCENE_H
 
 #include "printing/messages.h"
+#include "web/web_file.h"
+
+#include <alpenglow/alpenglow.h>
 
 #include <jansson.h>
 #include <stddef.h>
@@ -16,11 +19,12 @@ typedef struct web_file {
     size_t size;
 } web_file;
 
-/// Zeroed before web_scene_read.
+/// Zeroed before web_scene_read, except context and bounds.
 typedef struct web_scene {
-    const char *path;    // borrowed
-    double bounds[2][3]; // metres: the lowest and the highest corner
-    char *bytes;         // [size] of the asset
+    alp_context *context; // borrowed; loads files, so that their faults have the same messages
+    const char *path;     // borrowed
+    double bounds[2][3];  // lowest and highest corner, metres in the world of the file
+    char *bytes;          // [size] of the asset
     size_t size;
     json_t *document;
     web_file *files; // [file_count]
@@ -36,14 +40,12 @@ typedef struct web_scene {
     size_t grid_count;
 } web_scene;
 
-/// The bytes of a file and a 0 after them, malloc'ed. NULL after a message.
-char *web_read_file(const char *path, size_t *size);
-/// Prints a fault of a file. @return EXIT_FAILED
-int web_fail(const char *path, const char *text);
 void web_report(message_log *messages, alp_log_level level, const char *code, const char *object,
                 const char *text);
 const json_t *web_member(const json_t *object, const char *first, const char *second);
 
+/// Prints the message of a failed call of the library. @return EXIT_DONE or EXIT_FAILED
+int web_scene_end(const web_scene *scene, alp_result result);
 /// Reads an asset that the library has loaded, and the files that it names. A file that cannot be
 /// read, or lies outside of the folder of the asset, is left out with a warning.
 /// @return EXIT_DONE, or EXIT_FAILED after a message

@@ -53,7 +53,7 @@ ALPENGLOW_COMMAND=$work/prefix/bin/alpenglow "$work/venv/bin/python" "$here/test
 "$work/venv/bin/python" "$module/examples/bake_mesh.py" light.png >bake.txt 2>/dev/null
 grep -qE '^[0-9]+ texels, mean [0-9.]+ W/m2, error (0\.[0-9]|1\.0) %' bake.txt || fail "$(cat bake.txt)"
 [ "$(head -c 4 light.png | tail -c 3)" = PNG ] || fail "bake_mesh.py wrote no picture"
-"$work/venv/bin/python" "$module/examples/ask_probes.py" >probes.txt
+"$work/venv/bin/python" "$module/examples/read_probes.py" >probes.txt
 [ "$(grep -cE '^at .*: [0-9.]+ [0-9.]+ [0-9.]+ W/m2$' probes.txt)" = 5 ] || fail "$(cat probes.txt)"
 # shellcheck disable=SC2016 # the backquotes are Markdown
 sed -n '/^```python$/,/^```$/p' "$module/README.md" | sed '/^```/d' >readme.py

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Bakes probes of a room, and reads the irradiance of a thing that moves through it.
 
-    python ask_probes.py [SCENE]
+    python read_probes.py [SCENE]
 """
 import sys
 
