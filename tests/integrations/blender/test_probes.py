@@ -41,6 +41,23 @@ def test_probes():
     assert "Alpenglow" not in bpy.data.objects["floor"].data.uv_layers
     count = len(bpy.data.objects)
     support.bake()  # again: one object, one file
+    # A file that no bake of probes wrote stays.
+    for text in ('{"format": "other"}', "[]", "not JSON"):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        try:
+            bpy.ops.alpenglow.bake()
+            raise AssertionError("a file of the user was overwritten")
+        except RuntimeError as error:
+            assert f"{path}: is not from a bake of probes" in str(error), error
+        with open(path, encoding="utf-8") as file:
+            assert file.read() == text
+    os.remove(path)  # the textures alone
+    try:
+        bpy.ops.alpenglow.bake()
+        raise AssertionError("a texture of the user was overwritten")
+    except RuntimeError as error:
+        assert "Räume.probes.ktx2: is not from a bake of probes" in str(error), error
     assert len(bpy.data.objects) == count
 
 
