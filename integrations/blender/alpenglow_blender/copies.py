@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from . import export, uv
+from . import export, nodes, uv
 
 HIDDEN = "alpenglow_hidden"  # property of an original: how it was hidden
 SHARED = {"LIGHT", "VOLUME", "CURVES", "GPENCIL", "GREASEPENCIL", "LIGHT_PROBE"}  # copied as they are
@@ -123,6 +123,7 @@ class Copies:
             for material in shape.slots:
                 shape.mesh.materials.append(material)
             shape.mesh.name = f"{shape.name}.baked"
+            shape.mesh[nodes.MARK] = 1
             target = bpy.data.objects.new(f"{shape.name}.baked", shape.mesh)
             self.place_object(target, shape.matrix, shape.shown, shape.inner)
             found.append((target, shape.corners))

@@ -18,6 +18,8 @@ def remove_bakes():
     made = [o for o in local(bpy.data.objects) if export.SOURCE in o]
     for o in made:
         copies.remove_object(o)
+    for mesh in [m for m in local(bpy.data.meshes) if nodes.MARK in m and m.users == 0]:
+        bpy.data.meshes.remove(mesh)
     for o in local(bpy.data.objects):
         give_materials_back(o)
     for material in local(bpy.data.materials):
