@@ -12,6 +12,7 @@ import numpy
 from . import copies, cut, export, glb, nodes, surface, uv
 
 BARE_MESH = "alpenglow_bare"  # property of a mesh that had no material
+PLAIN = "alpenglow_plain"  # property of the nodes of a material that had none
 MADE = "made"  # value of nodes.MARK at a material that a bake made for none
 
 
@@ -236,8 +237,10 @@ class Applier:
             material = bpy.data.materials.new("Alpenglow")
             material[nodes.MARK] = MADE
             with_nodes(material, surface.BARE)
-        elif is_shared or material.library is not None or not material.use_nodes:
+        elif is_shared or material.library is not None or has_stored_nodes(material):
             material = copy_of(material)
+        if not material.use_nodes:
+            with_nodes(material, material.diffuse_color[:3])
         tree = material.node_tree
         nodes.remove(tree)
         read, _ = surface.read(material)
@@ -276,14 +279,18 @@ def with_own_mesh(target):
 
 
 def copy_of(material):
-    """MATERIAL.baked, which remembers its original. It has nodes, whatever the original has."""
+    """MATERIAL.baked, which remembers its original."""
     made = material.copy()
     if export.SOURCE not in made:
         made[export.SOURCE] = material
     made.name = f"{material.name.removesuffix('.baked')}.baked"
-    if not made.use_nodes:
-        with_nodes(made, made.diffuse_color[:3])
     return made
+
+
+def has_stored_nodes(material):
+    """Whether it keeps nodes that it does not use, which stay."""
+    return not material.use_nodes and material.node_tree is not None and \
+        len(material.node_tree.nodes) > 0
 
 
 def remove_unused(page):
@@ -305,7 +312,8 @@ def materials_of(o):
 
 
 def with_nodes(material, colour):
-    """Gives a material the nodes of what Cycles shows without any: a diffuse colour."""
+    """Gives a material the nodes of what Cycles shows without any: a diffuse colour. Those that it
+    keeps go."""
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
@@ -314,3 +322,4 @@ def with_nodes(material, colour):
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (300, 0)
     tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
+    diffuse[PLAIN] = output[PLAIN] = 1

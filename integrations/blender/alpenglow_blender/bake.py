@@ -142,7 +142,7 @@ class Bake:
                           f"and report what the console says{self._where_kept()}")
 
     def _where_kept(self):
-        return f"; the result of the command is kept in {self.kept}" if self.kept is not None else ""
+        return "" if self.kept is None else f"; the result of the command is kept in {self.kept}"
 
     def _plain(self, line):
         """A line of the command without its own name and that of our file."""

@@ -11,7 +11,7 @@ import bpy
 from . import export, nodes, uv
 
 HIDDEN = "alpenglow_hidden"  # property of an original: how it was hidden
-SHARED = {"LIGHT", "VOLUME", "CURVES", "GPENCIL", "GREASEPENCIL", "LIGHT_PROBE"}  # copied as they are
+SHARED = {"LIGHT", "VOLUME", "CURVES", "GPENCIL", "GREASEPENCIL", "LIGHT_PROBE"}  # copied as is
 FLAGS = ("hide_select", "visible_camera", "visible_diffuse", "visible_glossy",
          "visible_transmission", "visible_volume_scatter", "visible_shadow", "is_holdout",
          "is_shadow_catcher", "pass_index", "color", "lightgroup", "display_type")

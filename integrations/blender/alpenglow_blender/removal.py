@@ -5,7 +5,7 @@ Cut polygons and their normals stay, and so do meshes that objects shared before
 
 import bpy
 
-from . import apply, copies, export, nodes, uv
+from . import apply, bake, copies, export, nodes, uv
 
 
 def local(blocks):
@@ -25,6 +25,7 @@ def remove_bakes():
     for material in local(bpy.data.materials):
         if material.node_tree is not None:
             nodes.remove(material.node_tree)
+            take_nodes(material)
         if material.users == 0 and (export.SOURCE in material or is_made(material)):
             bpy.data.materials.remove(material)
     meshes = {m for m in local(bpy.data.meshes) if uv.remove(m)}
@@ -35,6 +36,14 @@ def remove_bakes():
         bpy.data.node_groups.remove(group)
     apply.remove_unused(apply.Page())
     return len(originals) + len(made) + sum(o.data in meshes for o in local(bpy.data.objects))
+
+
+def take_nodes(material):
+    """Returns a material that had no nodes to that, unless the user has added some."""
+    tree = material.node_tree
+    if len(tree.nodes) and all(apply.PLAIN in node for node in tree.nodes):
+        tree.nodes.clear()
+        material.use_nodes = False
 
 
 def is_made(material):
@@ -62,7 +71,7 @@ class ALPENGLOW_OT_remove(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        return context.mode == "OBJECT"
+        return context.mode == "OBJECT" and bake.Current.bake is None
 
     def execute(self, context):
         count = remove_bakes()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A bake in a Blender that test_command.py kills: writes the number of the command's process into
-the file that it is given."""
+"""A bake in a Blender that test_command.py kills. Arguments: the command, and a file that gets the
+number of its process."""
 
 import os
 import sys
@@ -15,8 +15,7 @@ addon = support.install()
 settings = support.empty_scene()
 support.add_mesh("monkey", "monkey")
 support.add_lamp("POINT", "lamp", 100, (2, 0, 3))
-settings.size, settings.stop, settings.error = 2048, "ERROR", 0.01
-bake = addon.bake.Bake(bpy.context, settings, "")
+bake = addon.bake.Bake(bpy.context, settings, sys.argv[-2])
 path = sys.argv[-1]
 with open(f"{path}.part", "w", encoding="utf-8") as file:
     file.write(str(bake.job.process.pid))

@@ -220,8 +220,8 @@ def state_of_material(material):
               properties_of(n)) for n in tree.nodes] if tree else []
     links = [(l.from_node.name, l.from_socket.identifier, l.to_node.name, l.to_socket.identifier,
               l.is_muted) for l in tree.links] if tree else []
-    return f"material {(material.name, material.use_nodes, sorted(map(str, nodes)), sorted(links))} " \
-           f"{properties_of(material)}"
+    state = (material.name, material.use_nodes, sorted(map(str, nodes)), sorted(links))
+    return f"material {state} {properties_of(material)}"
 
 
 def close(a, b, tolerance):

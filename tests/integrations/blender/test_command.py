@@ -61,6 +61,9 @@ def test_broken_installs():
     assert "is another program" in refusal(script("other", "echo GNU true 9.1"))
     assert "crashed (SIGSEGV)" in refusal(script("crash", "kill -SEGV $$"))
     assert "ended with 127: " in refusal(script("library", "echo no libembree3.so >&2; exit 127"))
+    addon.run.CHECK_SECONDS = 0.3
+    assert "no answer within 0.3 s" in refusal(script("slow", "exec sleep 60"))
+    addon.run.CHECK_SECONDS = 5
     not_a_program = script("text", "")
     with open(not_a_program, "wb") as file:
         file.write(b"\x7fELF broken")
@@ -187,9 +190,11 @@ def test_interrupt_without_waiting():
 def test_killed_blender():
     """The command ends with a killed Blender. The next bake removes the folder left over."""
     pid_file = os.path.join(support.FOLDER, "killed.pid")
+    version = "if [ $1 = --version ]; then echo alpenglow 0.1.0; exit; fi\n"
+    silent = script("silent", version + "exec sleep 300")  # no write to a broken pipe ends it
     here = os.path.dirname(os.path.abspath(__file__))
     with subprocess.Popen([bpy.app.binary_path, "-b", "--factory-startup", "--python",
-                           os.path.join(here, "killed.py"), "--", pid_file],
+                           os.path.join(here, "killed.py"), "--", silent, pid_file],
                           stdout=subprocess.DEVNULL) as blender:
         deadline = time.monotonic() + 60
         while not os.path.exists(pid_file):
