@@ -55,6 +55,7 @@ class Copies:
     def gather(self, wanted):
         """wanted: index of the item of each key."""
         depsgraph = self.context.evaluated_depsgraph_get()
+        parents = {key[0] for key in wanted}
         missing = {i for i in wanted.values() if self.items[i].fate == export.BAKED}
         for instance in depsgraph.object_instances:
             index = wanted.get(key_of(instance))
@@ -62,6 +63,7 @@ class Copies:
                 missing.discard(index)
                 self.gather_shape(instance, index, depsgraph)
             elif instance.is_instance and instance.show_self and \
+                    instance.parent.original.name_full in parents and \
                     not instance.object.original.hide_render:
                 self.gather_other(instance)
         self.notes += [f"{self.items[i].name} was removed during the bake" for i in sorted(missing)]

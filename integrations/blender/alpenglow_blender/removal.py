@@ -32,7 +32,7 @@ def remove_bakes():
     for mesh in meshes:
         if mesh.pop(apply.BARE_MESH, False) and not any(mesh.materials):
             mesh.materials.clear()
-    for group in [g for g in bpy.data.node_groups if g.get(nodes.MARK) and g.users == 0]:
+    for group in [g for g in local(bpy.data.node_groups) if g.get(nodes.MARK) and g.users == 0]:
         bpy.data.node_groups.remove(group)
     apply.remove_unused(apply.Page())
     return len(originals) + len(made) + sum(o.data in meshes for o in local(bpy.data.objects))

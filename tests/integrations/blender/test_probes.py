@@ -41,7 +41,11 @@ def test_probes():
     assert "Alpenglow" not in bpy.data.objects["floor"].data.uv_layers
     count = len(bpy.data.objects)
     support.bake()  # again: one object, one file
-    # A file that no bake of probes wrote stays.
+
+
+def test_file_of_user():
+    """A file that no bake of probes wrote stays. test_probes ran before."""
+    path = os.path.join(support.FOLDER, "Räume.probes.json")
     for text in ('{"format": "other"}', "[]", "not JSON"):
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
@@ -61,4 +65,4 @@ def test_probes():
     assert len(bpy.data.objects) == count
 
 
-support.main(test_probes)
+support.main(test_probes, test_file_of_user)
