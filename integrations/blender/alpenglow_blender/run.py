@@ -86,7 +86,7 @@ def last_line(data):
 
 def dying_with_us():
     """A function for the child, by which Linux interrupts it once Blender has died; else None.
-    Linux takes the end of the thread that started the child for that: here Blender's main thread."""
+    Linux counts the end of the thread that started the child: here the main thread."""
     if not sys.platform.startswith("linux"):
         return None
     prctl, parent = ctypes.CDLL(None).prctl, os.getpid()
