@@ -9,7 +9,7 @@ except ImportError:
     raise ImportError("Alpenglow needs numpy in Blender's Python; Debian has it as python3-numpy, "
                       "for the Python in /usr/bin") from None
 
-from . import bake, panel, preferences
+from . import bake, panel, preferences, removal
 
 bl_info = {
     "name": "Alpenglow",
@@ -22,7 +22,7 @@ bl_info = {
 }
 
 CLASSES = (panel.AlpenglowSettings, panel.ALPENGLOW_PT_panel, bake.ALPENGLOW_OT_bake,
-           bake.ALPENGLOW_OT_cancel, preferences.ALPENGLOW_OT_check,
+           bake.ALPENGLOW_OT_cancel, removal.ALPENGLOW_OT_remove, preferences.ALPENGLOW_OT_check,
            preferences.AlpenglowPreferences)
 
 

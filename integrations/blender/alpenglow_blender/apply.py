@@ -9,7 +9,11 @@ from dataclasses import dataclass
 import bpy
 import numpy
 
-from . import cut, export, glb, nodes, surface
+from . import copies, cut, export, glb, nodes, surface, uv
+
+BARE_MESH = "alpenglow_bare"  # property of a mesh that had no material
+PLAIN = "alpenglow_plain"  # property of the nodes of a material that had none
+MADE = "made"  # value of nodes.MARK at a material that a bake made for none
 
 
 class ApplyError(Exception):
@@ -23,6 +27,11 @@ class Page:
     light: object = None
     intensity: float = 1.0
 
+    def remove(self):
+        for image in (self.occlusion, self.light):
+            if image is not None:
+                bpy.data.images.remove(image)
+
 
 class Result:
     """The .glb that the command wrote."""
@@ -30,8 +39,9 @@ class Result:
     def __init__(self, path):
         self.reader = glb.Reader(path)
         self.folder = os.path.dirname(path)
-        self.nodes = {n["extras"]["item"]: n for n in self.reader.elements("nodes")
-                      if "item" in n.get("extras", {}) and "mesh" in n}
+        with self.reader.checked("nodes"):
+            self.nodes = {n["extras"]["item"]: n for n in self.reader.elements("nodes")
+                          if "item" in n.get("extras", {}) and "mesh" in n}
 
     def texture_of(self, material):
         """(coordinate set, image of occlusion or None, light map or None) of a material."""
@@ -45,46 +55,66 @@ class Result:
             image = self.reader.elements("textures")[occlusion["index"]]["source"]
         return found.get("texCoord", 0), image, light
 
-    def corners(self, item):
+    def corners(self, item, loop_count):
         """(loops [triangles][3], Blender's coordinates [triangles][3][2]) of an item."""
-        loops, places = [], []
-        mesh = self.reader.elements("meshes")[self.nodes[item]["mesh"]]
-        for primitive in mesh["primitives"]:
-            material = self.reader.elements("materials")[primitive["material"]]
-            name = f"TEXCOORD_{self.texture_of(material)[0]}"
-            attributes = primitive["attributes"]
-            if name not in attributes:
-                raise ApplyError("has no map: see the warnings of the command")
-            indices = self.reader.accessor(primitive["indices"])[:, 0].astype(numpy.int64)
-            numbers = self.reader.accessor(attributes["_LOOP"]).astype(numpy.int64)
-            numbers = numbers @ numpy.array([1, 1 << 8, 1 << 16, 1 << 24])
-            found = numpy.array(self.reader.accessor(attributes[name]), numpy.float32)
-            found[:, 1] = 1 - found[:, 1]
-            loops.append(numbers[indices].reshape(-1, 3))
-            places.append(found[indices].reshape(-1, 3, 2))
-        return numpy.concatenate(loops), numpy.concatenate(places)
+        if item not in self.nodes:
+            raise ApplyError("is not in the result; bake again")
+        with self.reader.checked(f"mesh of item {item}"):
+            mesh = self.reader.elements("meshes")[self.nodes[item]["mesh"]]
+            parts = [self.corners_of(primitive) for primitive in mesh["primitives"]]
+            loops, places = (numpy.concatenate(arrays) for arrays in zip(*parts))
+            if loops.max() >= loop_count:
+                raise ValueError(f"loop {loops.max()} of {loop_count}")
+        return loops, places
 
-    def page(self):
-        """The maps of all materials, as packed images."""
-        found = [self.texture_of(m) for m in self.reader.elements("materials")]
-        occlusions = {image for _, image, _ in found if image is not None}
-        lights = {light["uri"]: light for _, _, light in found if light is not None}
+    def corners_of(self, primitive):
+        material = self.reader.elements("materials")[primitive["material"]]
+        name = f"TEXCOORD_{self.texture_of(material)[0]}"
+        attributes = primitive["attributes"]
+        if name not in attributes:
+            raise ApplyError("has no map: see the warnings of the command")
+        indices = self.reader.accessor(primitive["indices"])[:, 0].astype(numpy.int64)
+        numbers = self.reader.accessor(attributes["_LOOP"]).astype(numpy.int64)
+        numbers = numbers @ numpy.array([1, 1 << 8, 1 << 16, 1 << 24])
+        found = numpy.array(self.reader.accessor(attributes[name]), numpy.float32)
+        found[:, 1] = 1 - found[:, 1]
+        return numbers[indices].reshape(-1, 3), found[indices].reshape(-1, 3, 2)
+
+    def maps(self):
+        """A Page of what all materials read: index of the image of occlusion, `lightmap`."""
+        with self.reader.checked("materials"):
+            found = [self.texture_of(m) for m in self.reader.elements("materials")]
+            occlusions = {image for _, image, _ in found if image is not None}
+            lights = {light["uri"]: light for _, _, light in found if light is not None}
         if not occlusions and not lights:
             raise ApplyError("the command wrote no map: see its warnings")
         if len(occlusions) > 1 or len(lights) > 1:
             raise ApplyError("the bake has several pages, which the add-on does not apply")
+        return Page(next(iter(occlusions), None), next(iter(lights.values()), None))
+
+    def page(self, maps):
+        """The maps as packed images."""
         page = Page()
-        for index in occlusions:
-            path = os.path.join(self.folder, "occlusion.png")
-            with open(path, "wb") as file:
-                image = self.reader.elements("images")[index]
-                file.write(self.reader.view(image["bufferView"]))
-            page.occlusion = packed(path, "occlusion")
-        for uri, light in lights.items():
-            page.light = packed(os.path.join(self.folder, uri), "light")
-            page.light["units"] = light["units"]
-            page.intensity = float(light["intensity"])
+        try:
+            with self.reader.checked("maps"):
+                if maps.occlusion is not None:
+                    page.occlusion = packed(self.written(maps.occlusion), "occlusion")
+                if maps.light is not None:
+                    page.intensity = float(maps.light["intensity"])
+                    path = os.path.join(self.folder, maps.light["uri"])
+                    page.light = packed(path, "light")
+                    page.light["units"] = maps.light["units"]
+        except Exception:
+            page.remove()
+            raise
         return page
+
+    def written(self, index):
+        """Writes an image of the .glb into a file, and returns its path."""
+        path = os.path.join(self.folder, "occlusion.png")
+        with open(path, "wb") as file:
+            file.write(self.reader.view(self.reader.elements("images")[index]["bufferView"]))
+        return path
 
 
 def packed(path, kind):
@@ -100,37 +130,43 @@ def packed(path, kind):
 
 
 class Applier:
+    """Applies a Result to the scene and view layer of a context."""
+
     def __init__(self, context, items, result):
         self.context, self.items, self.result = context, items, result
-        self.notes, self.made, self.hidden, self.count = [], {}, set(), 0
+        self.notes, self.count = [], 0
+        self.copies = copies.Copies(context, items, self.take, self.notes)
 
     def apply(self):
-        """Applies all items. Objects that cannot take the result cost a note each."""
-        page = self.result.page()
+        """Applies all items. Objects that cannot take the result cost a note each. Raises
+        ApplyError before the scene changes."""
+        maps = self.result.maps()
         self.context.view_layer.update()
         wanted = {i.key: n for n, i in enumerate(self.items) if i.fate != export.KEPT}
-        targets = self.find_own(wanted) + self.make_baked(wanted)
-        if not targets:
-            remove_unused(Page())
-            raise ApplyError("no object took the result: " + "; ".join(self.notes))
-        self.remove_replaced()
-        polygons = sum(add_uv_map(target.data, *corners) for target, corners in targets)
-        if polygons:
-            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are "
-                              "edges")
+        own = self.find_own(wanted)
+        try:
+            self.copies.gather(wanted)
+            self.check_shown([o for o, _ in own], maps)
+            page = self.result.page(maps)
+        except Exception:
+            self.copies.discard()
+            raise
+        targets = [(with_own_mesh(o), corners) for o, corners in own] + self.copies.place()
+        self.copies.remove_replaced()
+        self.add_uv_maps(targets)
         self.dress([target for target, _ in targets], page)
-        self.hide_originals()
+        self.copies.hide_originals()
         remove_unused(page)
         self.count = len(targets)
 
-    def take(self, index, topology):
+    def take(self, index, mesh):
         """Loops and coordinates of the corners of an item, or None with a note."""
         item = self.items[index]
-        if topology != item.topology:
+        if export.topology_of(mesh) != item.topology:
             self.notes.append(f"{item.name} changed during the bake; bake again")
             return None
         try:
-            return self.result.corners(index)
+            return self.result.corners(index, len(mesh.loops))
         except ApplyError as error:
             self.notes.append(f"{item.name} {error}")
             return None
@@ -138,7 +174,7 @@ class Applier:
     def find_own(self, wanted):
         """(object, corners) of objects that take the result themselves."""
         found = []
-        by_name = {o.name_full: o for o in self.context.view_layer.objects}
+        by_name = {o.name_full: o for o in bpy.data.objects if o.users_scene}
         for key, index in wanted.items():
             if self.items[index].fate != export.OWN:
                 continue
@@ -146,134 +182,125 @@ class Applier:
             if target is None or target.type != "MESH":
                 self.notes.append(f"{self.items[index].name} was removed during the bake")
                 continue
-            corners = self.take(index, export.topology_of(target.data))
-            if corners is None or not self.has_room(target):
-                continue
-            if target.data.users > 1 or target.data.library is not None:
-                target.data = target.data.copy()  # objects that share a mesh have maps of their own
-            found.append((target, corners))
+            corners = self.take(index, target.data)
+            slots = [slot.material for slot in target.material_slots]
+            if corners is not None and uv.has_room(target.data, slots, target.name, self.notes):
+                found.append((target, corners))
         return found
 
-    def has_room(self, target):
-        layers = target.data.uv_layers
-        if nodes.UV_MAP in layers or len(layers) < 8:
-            return True
-        self.notes.append(f"{target.name} has eight UV maps; remove one and bake again")
-        return False
+    def check_shown(self, own, maps):
+        """Raises ApplyError if no object took the result, or if no material shows a map."""
+        slots = [[slot.material for slot in o.material_slots] for o in own]
+        slots += [shape.slots for shape in self.copies.shapes]
+        if not slots:
+            raise ApplyError("no object took the result: " + "; ".join(self.notes))
+        materials = dict.fromkeys(m for some in slots for m in some or [None])
+        reasons = [obstacles(m, surface.read(m)[0], maps) for m in materials]
+        if all(some and all(some) for some in reasons):
+            lines = dict.fromkeys(line for some in reasons for line in some)
+            raise ApplyError("no material can show the map, so nothing changed: " +
+                             "; ".join(lines))
 
-    def make_baked(self, wanted):
-        """(object, corners) of new objects NAME.baked with evaluated meshes."""
-        depsgraph = self.context.evaluated_depsgraph_get()
-        shapes = []
-        for instance in depsgraph.object_instances:
-            index = wanted.get(export.key_of(instance))
-            if index is None or self.items[index].fate != export.BAKED:
-                continue
-            # With all layers Blender evaluates the object again, which instances of nodes are not.
-            mesh = bpy.data.meshes.new_from_object(
-                instance.object, preserve_all_data_layers=not instance.is_instance,
-                depsgraph=depsgraph)
-            slots = [export.material_of(instance.object, mesh, i)
-                     for i in range(max(len(instance.object.material_slots), len(mesh.materials)))]
-            shown = (instance.parent if instance.is_instance else instance.object).original
-            shapes.append((index, mesh, slots, instance.matrix_world.copy(), shown))
-        found = []
-        for index, mesh, slots, matrix, shown in shapes:
-            corners = self.take(index, export.topology_of(mesh))
-            if corners is None:
-                bpy.data.meshes.remove(mesh)
-                continue
-            found.append((self.place(mesh, slots, matrix, shown, self.items[index].name), corners))
-            self.hidden.add(shown)
-        self.place_lamps(depsgraph)
-        return found
-
-    def place_lamps(self, depsgraph):
-        """Lamps of instancers come back too: the next bake needs them."""
-        lamps = [(i.parent.original, i.object.original, i.matrix_world.copy())
-                 for i in depsgraph.object_instances if i.is_instance and i.object.type == "LIGHT"
-                 and i.parent.original in self.hidden]
-        for shown, lamp, matrix in lamps:
-            self.place_object(lamp.data, matrix, shown, f"{shown.name}/{lamp.name}")
-
-    def place(self, mesh, slots, matrix, shown, name):
-        mesh.materials.clear()
-        for material in slots:
-            mesh.materials.append(material)
-        mesh.name = f"{name}.baked"
-        return self.place_object(mesh, matrix, shown, name)
-
-    def place_object(self, data, matrix, shown, name):
-        target = bpy.data.objects.new(f"{name}.baked", data)
-        target[export.SOURCE] = shown
-        target.matrix_world = matrix
-        inside = [c for c in shown.users_collection if c.library is None]
-        (inside[0] if inside else self.context.scene.collection).objects.link(target)
-        self.made[target] = shown
-        return target
-
-    def remove_replaced(self):
-        """Removes what an earlier bake made of the same originals. The new get its names."""
-        sources = set(self.made.values())
-        for old in [o for o in bpy.data.objects if o.get(export.SOURCE) in sources
-                    and o not in self.made and o.library is None]:
-            name, data = old.name, old.data
-            bpy.data.objects.remove(old)
-            if isinstance(data, bpy.types.Mesh) and data.users == 0:
-                bpy.data.meshes.remove(data)
-            heir = next((o for o in self.made if o.name.startswith(f"{name}.")), None)
-            if heir is not None:
-                heir.name = name
+    def add_uv_maps(self, targets):
+        polygons = 0
+        for target, (loops, places) in targets:
+            slots = [slot.material for slot in target.material_slots]
+            name = uv.add(target.data, slots, loops, places)
+            if name != nodes.UV_MAP:
+                self.notes.append(f"{target.name} has a UV map {nodes.UV_MAP} that no bake made: "
+                                  f"the map of the bake is {name}")
+            polygons += cut.cut(target.data, name, loops, places)
+        if polygons:
+            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are "
+                              "edges")
 
     def dress(self, targets, page):
-        """Gives materials their nodes. A material that others use too is copied."""
-        baked, copies = set(targets), {}
-        others = {m for o in bpy.data.objects if o not in baked for m in materials_of(o)}
+        """Gives materials their nodes. A material that others use too is copied, and so is one for
+        objects whose UV maps have other names."""
+        baked, dressed = set(targets), {}
+        shared = {m for o in bpy.data.objects if o not in baked for m in materials_of(o)}
         for target in targets:
+            uv_map = target.data[uv.OURS]
             if not target.material_slots:
                 target.data.materials.append(None)
+                target.data[BARE_MESH] = True
             for slot in target.material_slots:
-                key = slot.material
-                if key not in copies:
-                    copies[key] = self.dressed(key, key in others, page)
-                slot.material = copies[key]
+                key = (slot.material, uv_map)
+                if key not in dressed:
+                    dressed[key] = self.dressed(slot.material, slot.material in shared, page,
+                                                uv_map)
+                    shared.add(slot.material)
+                slot.material = dressed[key]
 
-    def dressed(self, material, is_shared, page):
+    def dressed(self, material, is_shared, page, uv_map):
         if material is None:
             material = bpy.data.materials.new("Alpenglow")
+            material[nodes.MARK] = MADE
             with_nodes(material, surface.BARE)
-        elif is_shared or material.library is not None:
-            material = material.copy()
-            material.name = f"{material.name.rpartition('.')[0] or material.name}.baked"
+        elif is_shared or material.library is not None or has_stored_nodes(material):
+            material = copy_of(material)
         if not material.use_nodes:
             with_nodes(material, material.diffuse_color[:3])
         tree = material.node_tree
         nodes.remove(tree)
         read, _ = surface.read(material)
-        if tree.get_output_node("ALL") is None:
-            self.notes.append(f"material {material.name} has no output: it shows no map")
-            return material
-        if page.occlusion is not None:
-            nodes.show_occlusion(tree, read, page.occlusion)
-        if page.light is not None and read.is_pane():
-            self.notes.append(f"material {material.name} lets light through: it keeps its look")
-        elif page.light is not None:
-            nodes.show_light(tree, read, page.light, page.intensity)
+        reasons = obstacles(material, read, page)
+        self.notes += [line for line in dict.fromkeys(reasons) if line]
+        shown = [not line for line in reasons]
+        if page.occlusion is not None and shown.pop(0):
+            nodes.show_occlusion(tree, read, page.occlusion, uv_map)
+        if page.light is not None and shown.pop(0):
+            nodes.show_light(tree, read, page.light, page.intensity, uv_map)
         return material
 
-    def hide_originals(self):
-        for shown in self.hidden:
-            shown.hide_render = True
-            shown.hide_set(True)
+
+def obstacles(material, read, maps):
+    """Why a material does not show each map, occlusion before light; "" for one that it shows."""
+    if material is not None and material.use_nodes and \
+            material.node_tree.get_output_node("ALL") is None:
+        fault = f"material {material.name} has no output for all engines: it shows no map"
+        return [fault for image in (maps.occlusion, maps.light) if image is not None]
+    reasons = []
+    if maps.occlusion is not None:
+        is_shown = read.tinted or material is None or not material.use_nodes
+        reasons.append("" if is_shown else
+                       f"material {material.name} has no colour for occlusion: it keeps its look")
+    if maps.light is not None:
+        reasons.append("" if not read.is_pane() else
+                       f"material {material.name} lets light through: it keeps its look")
+    return reasons
+
+
+def with_own_mesh(target):
+    """Gives an object a mesh that no other has, for a UV map of its own."""
+    if target.data.users > 1 or target.data.library is not None:
+        target.data = target.data.copy()
+    return target
+
+
+def copy_of(material):
+    """MATERIAL.baked, which remembers its original."""
+    made = material.copy()
+    if export.SOURCE not in made:
+        made[export.SOURCE] = material
+    made.name = f"{material.name.removesuffix('.baked')}.baked"
+    return made
+
+
+def has_stored_nodes(material):
+    """Whether it keeps nodes that it does not use, which stay."""
+    return not material.use_nodes and material.node_tree is not None and \
+        len(material.node_tree.nodes) > 0
 
 
 def remove_unused(page):
-    """Removes maps of earlier bakes that no material reads any more."""
+    """Removes maps of earlier bakes that no material reads any more. The new get their names."""
+    new = [image for image in (page.occlusion, page.light) if image is not None]
     for image in [i for i in bpy.data.images if i.get(nodes.MARK) and i.users == 0]:
-        bpy.data.images.remove(image)
-    for image in (page.occlusion, page.light):
-        if image is not None:
-            image.name = name_of_map(image[nodes.MARK])
+        if image not in new:
+            bpy.data.images.remove(image)
+    for image in new:
+        image.name = name_of_map(image[nodes.MARK])
 
 
 def name_of_map(kind):
@@ -285,7 +312,8 @@ def materials_of(o):
 
 
 def with_nodes(material, colour):
-    """Gives a material the nodes of what Cycles shows without any: a diffuse colour."""
+    """Gives a material the nodes of what Cycles shows without any: a diffuse colour. Those that it
+    keeps go."""
     material.use_nodes = True
     tree = material.node_tree
     tree.nodes.clear()
@@ -294,13 +322,4 @@ def with_nodes(material, colour):
     output = tree.nodes.new("ShaderNodeOutputMaterial")
     output.location = (300, 0)
     tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
-
-
-def add_uv_map(mesh, loops, places):
-    """Adds the UV map of a bake. Returns the number of polygons that had to be cut."""
-    layer = mesh.uv_layers.get(nodes.UV_MAP) or mesh.uv_layers.new(name=nodes.UV_MAP, do_init=False)
-    uvs = numpy.zeros((len(mesh.loops), 2), numpy.float32)  # polygons without area have no triangle
-    uvs[loops] = places
-    layer.data.foreach_set("uv", uvs.ravel())
-    mesh.update()
-    return cut.cut(mesh, nodes.UV_MAP, loops, places)
+    diffuse[PLAIN] = output[PLAIN] = 1

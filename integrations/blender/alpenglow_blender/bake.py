@@ -2,14 +2,12 @@
 """A bake from scene to result: export, command, apply. It touches the scene only at its end."""
 
 import os
-import shutil
-import tempfile
 import time
 import traceback
 
 import bpy
 
-from . import apply, export, glb, probes, run
+from . import apply, export, folders, glb, place, probes, run
 
 RUNNING, DONE, FAILED, CANCELLED = "running", "done", "failed", "cancelled"
 FAULTS = (run.CommandError, export.ExportError, apply.ApplyError, glb.GlbError, OSError)
@@ -37,6 +35,7 @@ class Bake:
     def __init__(self, context, settings, command):
         self.state, self.message, self.notes, self.seconds = RUNNING, "", [], {}
         self.kind, self.folder, self.job, self.items = settings.what, None, None, []
+        self.place, self.kept = None, None
         self.is_touched = False  # a failed bake left something behind in the scene
         self.began = time.monotonic()
         try:
@@ -46,19 +45,20 @@ class Bake:
 
     def _start(self, context, settings, command):
         path, _ = run.check_command(command)
-        self.folder = tempfile.mkdtemp(prefix="alpenglow-")
+        self.folder = folders.Folder()
+        self.place = place.Place(context)
         exporter = export.Exporter(context, settings.scope == "SELECTED")
-        scene = os.path.join(self.folder, "scene.glb")
+        scene = os.path.join(self.folder.path, "scene.glb")
         exporter.write(scene)
-        self.out = os.path.join(self.folder, "baked.glb")
+        self.out = os.path.join(self.folder.path, "baked.glb")
         if self.kind == "PROBES":
             self.out = probes.place(context)
             arguments = [path, "probes", scene, "-o", self.out, "-f"] + probes.options(settings)
-            arguments += exporter.scene_options(self.folder)
+            arguments += exporter.scene_options(self.folder.path)
         else:
             arguments = [path, "bake", scene, "-o", self.out] + options_of(settings)
             if settings.bakes_light:
-                arguments += exporter.scene_options(self.folder)
+                arguments += exporter.scene_options(self.folder.path)
             if exporter.has_kept_nodes():
                 arguments += ["--only", f"*[!{export.KEPT_END}]"]
         self.items, self.notes = exporter.items, exporter.notes
@@ -72,6 +72,9 @@ class Bake:
     def step(self, context):
         """Reads the progress of the command, and applies its result once it has ended."""
         if self.state == RUNNING and self.job.poll():
+            if self.job.cancelled:
+                self._end(CANCELLED, "the bake was cancelled; nothing changed")
+                return self.state
             try:
                 self._finish(context)
             except Exception as error:  # pylint: disable=broad-except
@@ -82,8 +85,6 @@ class Bake:
         """Runs to the end."""
         if self.state == RUNNING:
             self.job.wait()
-        if self.job is not None and self.job.cancelled:
-            self._end(CANCELLED, "the bake was cancelled; nothing changed")
         return self.step(context)
 
     def _finish(self, context):
@@ -94,20 +95,36 @@ class Bake:
             name = os.path.basename(self.out)
             raise run.CommandError(f"the command ended well and wrote no {name}; install alpenglow "
                                    "again")
-        if self.kind == "PROBES":
-            count = probes.show(context, self.out)
-            message = f"{count} probes are in {self.out}"
-        else:
-            applier = apply.Applier(context, self.items, apply.Result(self.out))
-            applier.apply()
-            self.notes += applier.notes
-            message = f"{applier.count} objects are baked"
+        result = None if self.kind == "PROBES" else apply.Result(self.out)
+        message = self._apply(context, result)
         self._lap("apply")
         seconds = ", ".join(f"{name} {value:.1f} s" for name, value in self.seconds.items())
         self._end(DONE, f"{message} ({seconds})")
 
+    def _apply(self, context, result):
+        """Applies the result to the scene of the bake. A result that cannot be applied is kept."""
+        try:
+            override = self.place.override(context)
+            if override is None:
+                raise apply.ApplyError("the scene or the view layer was removed during the bake")
+            self.place.current_keys(self.items)
+            with override:
+                if result is None:
+                    return f"{probes.show(bpy.context, self.out)} probes are in {self.out}"
+                applier = apply.Applier(bpy.context, self.items, result)
+                applier.apply()
+        except Exception:
+            self.kept = self.out if result is None else self.folder.keep(bpy.data.filepath)
+            raise
+        self.notes += applier.notes
+        return f"{applier.count} objects are baked"
+
+    def interrupt(self):
+        """Tells the command to end. A later step() sees its end."""
+        self.job.interrupt()
+
     def cancel(self):
-        """Ends the command. The scene is as it was."""
+        """Ends the command and waits for it. The scene is as it was."""
         if self.job is not None:
             self.job.cancel()
         if self.state == RUNNING:
@@ -117,23 +134,26 @@ class Bake:
         if self.job is not None:
             self.job.cancel()
         if isinstance(error, FAULTS):
-            self._end(FAILED, self._plain(str(error)))
+            self._end(FAILED, self._plain(str(error)) + self._where_kept())
             return
         traceback.print_exception(type(error), error, error.__traceback__)
         self.is_touched = self.job is not None
         self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, "
-                          "and report what the console says")
+                          f"and report what the console says{self._where_kept()}")
+
+    def _where_kept(self):
+        return "" if self.kept is None else f"; the result of the command is kept in {self.kept}"
 
     def _plain(self, line):
         """A line of the command without its own name and that of our file."""
         if self.folder is not None:
-            line = line.replace(os.path.join(self.folder, "scene.glb") + ": ", "")
+            line = line.replace(os.path.join(self.folder.path, "scene.glb") + ": ", "")
         return line.removeprefix("alpenglow: ")
 
     def _end(self, state, message):
         self.state, self.message = state, message
         if self.folder is not None:
-            shutil.rmtree(self.folder, ignore_errors=True)
+            self.folder.remove()
 
 
 class Current:
@@ -201,7 +221,8 @@ class ALPENGLOW_OT_bake(bpy.types.Operator):
             return {"PASS_THROUGH"}
         bake = Current.bake
         redraw(context)
-        if bake.state == RUNNING and context.mode != "OBJECT" and bake.job.poll():
+        if bake.state == RUNNING and context.mode != "OBJECT" and bake.job.poll() and \
+                not bake.job.cancelled:
             return {"PASS_THROUGH"}  # the result waits until the user leaves the other mode
         if bake.step(context) == RUNNING:
             return {"PASS_THROUGH"}
@@ -229,5 +250,5 @@ class ALPENGLOW_OT_cancel(bpy.types.Operator):
         return Current.bake is not None
 
     def execute(self, context):
-        Current.bake.cancel()
+        Current.bake.interrupt()
         return {"FINISHED"}

@@ -2,7 +2,10 @@
 """Cuts polygons that lie in two charts of the atlas into the triangles that Blender draws.
 
 A loop of a mesh has one coordinate in a UV map. A chart border along a diagonal needs two. The cut
-adds the diagonals as edges. The surface, its normals and all other layers stay."""
+adds the diagonals as edges. The normals of all corners become custom normals, since Blender would
+compute others from the new polygons. The surface and all other layers stay."""
+
+import math
 
 import bmesh
 import numpy
@@ -26,37 +29,52 @@ def cut(mesh, uv_map, corners, places):
     starts = numpy.empty(len(mesh.polygons), numpy.int32)
     mesh.polygons.foreach_get("loop_start", starts)
     polygons = numpy.searchsorted(starts, corners[:, 0], side="right") - 1
-    owners = numpy.unique(polygons[triangles]).tolist()
-    normals = export.Loops(mesh).normals if mesh.has_custom_normals else None
+    owners = numpy.unique(polygons[triangles])
+    parts = parts_of(polygons, owners)
+    normals = export.Loops(mesh).normals
+    numbers = number_loops(mesh)
     work = bmesh.new()
-    work.from_mesh(mesh)
     try:
-        old_loop = number_loops(work)
+        work.from_mesh(mesh)
         work.faces.ensure_lookup_table()
-        for face, owner in [(work.faces[i], i) for i in owners]:
-            parts = numpy.flatnonzero(polygons == owner)
-            cut_polygon(work.loops.layers.uv[uv_map], face, corners[parts] - starts[owner],
-                        places[parts])
-        old = numpy.array([loop[old_loop] for face in work.faces for loop in face.loops])
-        work.loops.layers.int.remove(old_loop)
+        layer = work.loops.layers.uv[uv_map]
+        for face, owner, part in [(work.faces[i], i, p) for i, p in zip(owners.tolist(), parts)]:
+            cut_polygon(layer, face, corners[part] - starts[owner], places[part])
         work.to_mesh(mesh)
     finally:
         work.free()
-    if normals is not None:
-        mesh.normals_split_custom_set(normals[old])
-    mesh.update()
+    set_normals(mesh, normals[take_numbers(mesh, numbers)])
     return len(owners)
 
 
-def number_loops(work):
-    """A layer that keeps the number of each loop over the cut."""
-    layer = work.loops.layers.int.new("alpenglow_loop")
-    number = 0
-    for face in work.faces:
-        for loop in face.loops:
-            loop[layer] = number
-            number += 1
-    return layer
+def parts_of(polygons, owners):
+    """Triangles [owners][n] of each owner. polygons [triangles] is the polygon of each."""
+    triangles = numpy.flatnonzero(numpy.isin(polygons, owners))
+    triangles = triangles[numpy.argsort(polygons[triangles], kind="stable")]
+    return numpy.split(triangles, numpy.searchsorted(polygons[triangles], owners[1:]))
+
+
+def number_loops(mesh):
+    """Adds an attribute that keeps the number of each loop over the cut. Returns its name."""
+    attribute = mesh.attributes.new("alpenglow_loop", "INT", "CORNER")
+    attribute.data.foreach_set("value", numpy.arange(len(mesh.loops), dtype=numpy.int32))
+    return attribute.name
+
+
+def take_numbers(mesh, name):
+    """The numbers [loops] before the cut. Removes the attribute."""
+    numbers = numpy.empty(len(mesh.loops), numpy.int32)
+    mesh.attributes[name].data.foreach_get("value", numbers)
+    mesh.attributes.remove(mesh.attributes[name])
+    return numbers
+
+
+def set_normals(mesh, normals):
+    """Makes normals [loops][3] the custom normals of a mesh. Blender keeps two 16-bit angles."""
+    if hasattr(mesh, "use_auto_smooth") and not mesh.use_auto_smooth:  # until Blender 4.0
+        mesh.use_auto_smooth, mesh.auto_smooth_angle = True, math.pi
+    mesh.normals_split_custom_set(normals)
+    mesh.update()
 
 
 def cut_polygon(layer, face, corners, places):

@@ -3,6 +3,7 @@
 
 Khronos, glTF 2.0 specification, section 4 "Binary glTF layout"."""
 
+import contextlib
 import json
 import struct
 
@@ -77,6 +78,13 @@ class Writer:
                     file.write(part)
 
 
+def at(number):
+    """An index, offset or count of a document."""
+    if not isinstance(number, int) or number < 0:
+        raise ValueError(f"{number} is no index, offset or count")
+    return number
+
+
 class Reader:
     """The document of a .glb and its binary chunk."""
 
@@ -87,38 +95,58 @@ class Reader:
             raise GlbError(f"{path}: not a .glb file")
         self.path = path
         self.document, self.binary = None, b""
-        at = 12
-        while at + 8 <= len(data):
-            size, kind = struct.unpack_from("<I4s", data, at)
-            chunk = data[at + 8:at + 8 + size]
+        self._read_chunks(data)
+        if not isinstance(self.document, dict):
+            raise GlbError(f"{path}: has no JSON object; bake again")
+
+    def _read_chunks(self, data):
+        start = 12
+        while start + 8 <= len(data):
+            size, kind = struct.unpack_from("<I4s", data, start)
+            chunk = data[start + 8:start + 8 + size]
             if len(chunk) != size:
-                raise GlbError(f"{path}: ends in the middle of a chunk")
+                raise GlbError(f"{self.path}: ends in the middle of a chunk; bake again")
             if kind == b"JSON":
-                self.document = json.loads(chunk.decode())
+                try:
+                    self.document = json.loads(chunk.decode())
+                except ValueError as error:
+                    raise GlbError(f"{self.path}: its JSON is broken: {error}; bake again") \
+                        from None
             elif kind == b"BIN\0":
                 self.binary = chunk
-            at += 8 + size
-        if self.document is None:
-            raise GlbError(f"{path}: has no JSON")
+            start += 8 + size
+
+    @contextlib.contextmanager
+    def checked(self, part):
+        """Gives the name of the file and of a part to faults of what is read inside."""
+        try:
+            yield
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            fault = f"lacks {error}" if isinstance(error, KeyError) else str(error)
+            raise GlbError(f"{self.path}: {part}: {fault}; bake again") from None
 
     def elements(self, kind):
         return self.document.get(kind, [])
 
     def view(self, index):
         """The bytes of a buffer view."""
-        view = self.elements("bufferViews")[index]
-        start = view.get("byteOffset", 0)
-        return self.binary[start:start + view["byteLength"]]
+        with self.checked(f"buffer view {index}"):
+            view = self.elements("bufferViews")[at(index)]
+            start, size = at(view.get("byteOffset", 0)), at(view["byteLength"])
+            if start + size > len(self.binary):
+                raise ValueError("ends behind the file")
+            return self.binary[start:start + size]
 
     def accessor(self, index):
         """[n][k] numbers; normalized integers come as floats in [0, 1] or [-1, 1]."""
-        accessor = self.elements("accessors")[index]
-        view = self.elements("bufferViews")[accessor["bufferView"]]
-        kind, width = numpy.dtype(FORMATS[accessor["componentType"]]), WIDTHS[accessor["type"]]
-        stride = view.get("byteStride", width * kind.itemsize)
-        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        array = numpy.ndarray((accessor["count"], width), kind.newbyteorder("<"), self.binary,
-                              start, (stride, kind.itemsize))
+        with self.checked(f"accessor {index}"):
+            accessor = self.elements("accessors")[at(index)]
+            data = self.view(accessor["bufferView"])
+            view = self.elements("bufferViews")[accessor["bufferView"]]
+            kind, width = numpy.dtype(FORMATS[accessor["componentType"]]), WIDTHS[accessor["type"]]
+            stride = at(view.get("byteStride", width * kind.itemsize))
+            array = numpy.ndarray((at(accessor["count"]), width), kind.newbyteorder("<"), data,
+                                  at(accessor.get("byteOffset", 0)), (stride, kind.itemsize))
         if accessor.get("normalized", False):
             return numpy.maximum(array / numpy.float32(numpy.iinfo(kind).max), -1)
         return array

@@ -124,13 +124,13 @@ def add_group(tree, name, build, place):
     return node
 
 
-def add_image(tree, image, place):
-    """An image node that reads the map by the UV map "Alpenglow"."""
+def add_image(tree, image, uv_map, place):
+    """An image node that reads the map by the UV map of the bake."""
     picture = tree.nodes.new("ShaderNodeTexImage")
     picture.image, picture.extension, picture.interpolation = image, "EXTEND", "Linear"
     picture.location, picture[MARK] = place, 1
     coordinates = tree.nodes.new("ShaderNodeUVMap")
-    coordinates.uv_map, coordinates[MARK] = UV_MAP, 1
+    coordinates.uv_map, coordinates[MARK] = uv_map, 1
     coordinates.location = (place[0] - 200, place[1])
     tree.links.new(coordinates.outputs["UV"], picture.inputs["Vector"])
     return picture.outputs["Color"]
@@ -146,14 +146,20 @@ def set_colour(tree, socket, factor_socket, colour):
         factor_socket.default_value = colour.factor
 
 
-def show_light(tree, surface, image, intensity):
+def pass_on(tree, link, socket):
+    """Links the source of a link to another socket. A muted link stays muted."""
+    is_muted, source = link.is_muted, link.from_socket
+    tree.links.new(source, socket).is_muted = is_muted
+
+
+def show_light(tree, surface, image, intensity, uv_map):
     """Puts the group of light before the output. surface: of this material, read before."""
     target = tree.get_output_node("ALL").inputs["Surface"]
     x, y = target.node.location
     node = add_group(tree, LIGHT, build_light, (x, y + 250))
     if target.links:
-        tree.links.new(target.links[0].from_socket, node.inputs["Original"])
-    tree.links.new(add_image(tree, image, (x - 300, y + 350)), node.inputs["Light"])
+        pass_on(tree, target.links[0], node.inputs["Original"])
+    tree.links.new(add_image(tree, image, uv_map, (x - 300, y + 350)), node.inputs["Light"])
     node.inputs["Intensity"].default_value = intensity
     set_colour(tree, node.inputs["Base Color"], node.inputs["Base Factor"], surface.base)
     set_colour(tree, node.inputs["Emission"], node.inputs["Emission Factor"], surface.emission)
@@ -163,23 +169,26 @@ def show_light(tree, surface, image, intensity):
     tree.links.new(node.outputs["Surface"], target)
 
 
-def show_occlusion(tree, surface, image):
+def show_occlusion(tree, surface, image, uv_map):
     """Puts the group of occlusion before the colour of each shader."""
     picture = None
     for target in dict.fromkeys(surface.tinted):
         x, y = target.node.location
         if picture is None:
-            picture = add_image(tree, image, (x - 500, y + 250))
+            picture = add_image(tree, image, uv_map, (x - 500, y + 250))
         node = add_group(tree, OCCLUSION, build_occlusion, (x - 220, y + 100))
         node.inputs["Color"].default_value = target.default_value
         if target.links:
-            tree.links.new(target.links[0].from_socket, node.inputs["Color"])
+            pass_on(tree, target.links[0], node.inputs["Color"])
         tree.links.new(picture, node.inputs["Occlusion"])
         tree.links.new(node.outputs["Color"], target)
 
 
 def remove(tree):
-    """Removes our nodes. The material is then as it was before the bake."""
+    """Removes our nodes. The links and values of the others are then as before the bake. Returns
+    whether there were any."""
+    ours = [n for n in tree.nodes if n.get(MARK)]
+    count = len(tree.nodes)
     for node in list(tree.nodes):
         light = is_group(node, LIGHT)
         if not light and not is_group(node, OCCLUSION):
@@ -189,9 +198,10 @@ def remove(tree):
             target = link.to_socket
             tree.links.remove(link)
             if given.links:
-                tree.links.new(given.links[0].from_socket, target)
+                pass_on(tree, given.links[0], target)
             elif not light:
                 target.default_value = given.default_value
         tree.nodes.remove(node)
-    for node in [n for n in tree.nodes if n.get(MARK)]:
+    for node in ours:
         tree.nodes.remove(node)
+    return len(tree.nodes) < count

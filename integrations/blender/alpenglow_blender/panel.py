@@ -64,6 +64,7 @@ class ALPENGLOW_PT_panel(bpy.types.Panel):
             layout.operator("alpenglow.cancel", icon="CANCEL")
         else:
             layout.operator("alpenglow.bake", icon="LIGHT")
+            layout.operator("alpenglow.remove", icon="TRASH")
         letters = max(20, int(context.region.width / (7 * context.preferences.system.ui_scale)) - 3)
         column = layout.column(align=True)
         for message in [Current.message] + Current.notes:

@@ -7,6 +7,7 @@ import os
 import bpy
 
 NAME = "Alpenglow probes"
+FORMAT = "alpenglow-probes"
 
 
 class ProbesError(OSError):
@@ -17,7 +18,26 @@ def place(context):
     """The path of the probes of this file."""
     if not bpy.data.filepath:
         raise ProbesError("save the .blend first: probes are written beside it")
-    return os.path.splitext(bpy.data.filepath)[0] + ".probes.json"
+    path = os.path.splitext(bpy.data.filepath)[0] + ".probes.json"
+    check_ours(path)
+    return path
+
+
+def check_ours(path):
+    """Raises ProbesError if files that a bake would overwrite are not probes of Alpenglow."""
+    textures = [path.removesuffix("json") + end for end in ("ktx2", "moments.ktx2")]
+    found = next((p for p in [path] + textures if os.path.lexists(p)), None)
+    if found is not None and not is_probes(path):
+        raise ProbesError(f"{found}: is not from a bake of probes, which would overwrite it; move "
+                          "or rename it")
+
+
+def is_probes(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file).get("format") == FORMAT
+    except (OSError, ValueError, AttributeError):
+        return False
 
 
 def options(settings):

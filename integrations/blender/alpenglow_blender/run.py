@@ -1,16 +1,23 @@
 # SPDX-License-Identifier: MIT
 """Finds the command alpenglow, checks its version, and runs it as a child process."""
 
+import ctypes
 import json
 import os
 import queue
 import shutil
 import signal
 import subprocess
+import sys
 import threading
+import time
+
+import bpy
 
 VERSION = (0, 1)  # of the command: major and minor
 PATIENCE = 10.0  # seconds for an interrupted child to end by itself
+CHECK_SECONDS = 5  # for the version of the command
+PR_SET_PDEATHSIG = 1  # prctl(2)
 SHOWN_LINES = 50
 
 
@@ -20,7 +27,7 @@ class CommandError(Exception):
 
 def find_command(wanted):
     """The path of the command: `wanted`, or alpenglow on PATH where that is empty."""
-    path = os.path.expanduser(wanted.strip())
+    path = os.path.expanduser(bpy.path.abspath(wanted.strip()))  # "//" is the folder of the .blend
     if not path:
         path = shutil.which("alpenglow")
         if path is None:
@@ -39,10 +46,11 @@ def check_command(wanted):
     """(path, version as text) of a command that this add-on can use."""
     path = find_command(wanted)
     try:
-        ran = subprocess.run([path, "--version"], capture_output=True, timeout=20, check=False)
+        ran = subprocess.run([path, "--version"], capture_output=True, timeout=CHECK_SECONDS,
+                             check=False)
     except subprocess.TimeoutExpired:
-        raise CommandError(f"{path} --version: no answer within 20 s; install alpenglow again") \
-            from None
+        raise CommandError(f"{path} --version: no answer within {CHECK_SECONDS} s; install "
+                           "alpenglow again") from None
     except OSError as error:
         raise CommandError(f"{path}: cannot be started ({error.strerror}); install alpenglow "
                            "again") from None
@@ -76,18 +84,32 @@ def last_line(data):
     return f": {lines[-1]}" if lines else ""
 
 
+def dying_with_us():
+    """A function for the child, by which Linux interrupts it once Blender has died; else None.
+    Linux counts the end of the thread that started the child: here the main thread."""
+    if not sys.platform.startswith("linux"):
+        return None
+    prctl, parent = ctypes.CDLL(None).prctl, os.getpid()
+
+    def arrange():
+        prctl(PR_SET_PDEATHSIG, signal.SIGINT)
+        if os.getppid() != parent:  # it died before
+            os._exit(130)
+    return arrange
+
+
 class Job:
-    """One run of the command. poll() reads its progress; cancel() ends it."""
+    """One run of the command. poll() reads its progress; interrupt() and cancel() end it."""
 
     def __init__(self, arguments):
         self.stage, self.share, self.seconds_left = "starting", 0.0, None
         self.warnings, self.lines = [], []
-        self.cancelled = False
+        self.cancelled, self._deadline = False, None
         self._queue = queue.Queue()
         try:
             self.process = subprocess.Popen(
                 arguments, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE, start_new_session=True)
+                stderr=subprocess.PIPE, start_new_session=True, preexec_fn=dying_with_us())
         except OSError as error:
             raise CommandError(f"{arguments[0]}: cannot be started ({error.strerror})") from None
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -117,7 +139,9 @@ class Job:
             self.lines.append(line)
 
     def poll(self):
-        """True once the command has ended."""
+        """True once the command has ended. Kills one that did not heed the interrupt in time."""
+        if self._deadline is not None and time.monotonic() > self._deadline:
+            self.process.kill()
         ended = self.process.poll() is not None
         if ended:
             self._reader.join(PATIENCE)
@@ -132,14 +156,21 @@ class Job:
             self.cancel()
         self.poll()
 
-    def cancel(self):
-        """Interrupts the command, which then writes nothing, and waits for its end."""
-        self.cancelled = True
+    def interrupt(self):
+        """Interrupts the command, which then writes nothing. poll() tells when it has ended."""
+        if self.cancelled:
+            return
+        self.cancelled, self._deadline = True, time.monotonic() + PATIENCE
         if self.process.poll() is None:
             if os.name == "nt":
                 self.process.terminate()
             else:
                 self.process.send_signal(signal.SIGINT)
+
+    def cancel(self):
+        """Interrupts the command and waits for its end."""
+        self.interrupt()
+        if self.process.poll() is None:
             try:
                 self.process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
@@ -159,6 +190,8 @@ class Job:
 
     def describe(self):
         """Stage, share and time left, for the panel."""
+        if self.cancelled:
+            return "ending the command"
         text = f"{self.stage} {100 * self.share:.0f} %"
         if self.seconds_left is None:
             return text

@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import traceback
+import zlib
 
 import bpy
 import numpy
@@ -19,7 +20,8 @@ def install():
     """Installs the add-on from its zip, as the preferences do, and returns its module."""
     bpy.ops.preferences.addon_install(filepath=os.path.join(FOLDER, "alpenglow-blender.zip"))
     bpy.ops.preferences.addon_enable(module=MODULE)
-    for part in ("apply", "bake", "cut", "export", "glb", "lamps", "nodes", "run", "surface"):
+    for part in ("apply", "bake", "copies", "cut", "export", "folders", "glb", "lamps", "nodes",
+                 "place", "probes", "removal", "run", "surface", "uv"):
         importlib.import_module(f"{MODULE}.{part}")
     return sys.modules[MODULE]
 
@@ -159,15 +161,67 @@ def close_share(a, b):
 
 
 def state_of_scene():
-    """Everything that a cancelled bake may not change."""
-    return sorted((o.name, o.type, o.hide_render, o.data.name if o.data else "",
-                   tuple(u.name for u in getattr(o.data, "uv_layers", ())),
-                   len(getattr(o.data, "polygons", ())),
-                   tuple(s.material.name if s.material else "" for s in o.material_slots))
-                  for o in bpy.data.objects) + \
-        sorted((m.name, len(m.node_tree.nodes) if m.node_tree else 0)
-               for m in bpy.data.materials) + \
-        sorted((i.name,) for i in bpy.data.images)
+    """Everything that a cancelled bake may not change, as lines that can be compared."""
+    bpy.context.view_layer.update()
+    return sorted([state_of_object(o) for o in bpy.data.objects] +
+                  [state_of_mesh(m) for m in bpy.data.meshes] +
+                  [state_of_material(m) for m in bpy.data.materials] +
+                  [f"image {i.name}" for i in bpy.data.images] +
+                  [f"group {g.name}" for g in bpy.data.node_groups])
+
+
+def check_state(before):
+    """Fails if the scene differs from `before`, with the lines that do."""
+    after = state_of_scene()
+    lines = sorted(set(before) ^ set(after))
+    assert after == before, "\n".join(lines)
+
+
+def plain(value):
+    """A value of a property as something whose text does not depend on addresses."""
+    if hasattr(value, "name_full"):
+        return value.name_full
+    if isinstance(value, str) or not hasattr(value, "__len__"):
+        return value if isinstance(value, (str, bool, int, float)) else str(type(value))
+    return [plain(v) for v in value]
+
+
+def properties_of(owner):
+    return {k: plain(v) for k, v in sorted(owner.items()) if k != "cycles"}
+
+
+def state_of_object(o):
+    data = o.data.name if o.data else ""
+    slots = [(s.link, s.material.name if s.material else "") for s in o.material_slots]
+    hidden = (o.hide_render, o.hide_viewport, o.hide_get())
+    place = [round(x, 5) for row in o.matrix_world for x in row]
+    modifiers = [(m.name, m.type, m.show_viewport, m.show_render) for m in o.modifiers]
+    owners = (o.parent.name if o.parent else "", sorted(c.name for c in o.users_collection))
+    return f"object {(o.name, o.type, data, slots, hidden, place, modifiers, owners)} " \
+           f"{properties_of(o)}"
+
+
+def state_of_mesh(mesh):
+    numbers = [numpy.array([x for v in mesh.vertices for x in v.co], numpy.float32),
+               numpy.array([l.vertex_index for l in mesh.loops]),
+               numpy.array([(p.loop_start, p.material_index, p.use_smooth)
+                            for p in mesh.polygons])]
+    layers = [(u.name, u.active, u.active_render) for u in mesh.uv_layers]
+    numbers += [numpy.array([x for d in u.data for x in d.uv]) for u in mesh.uv_layers]
+    checksum = zlib.crc32(b"".join(a.tobytes() for a in numbers))
+    materials = [m.name if m else "" for m in mesh.materials]
+    normals = (mesh.use_auto_smooth, round(mesh.auto_smooth_angle, 5), mesh.has_custom_normals)
+    return f"mesh {(mesh.name, layers, checksum, materials, normals)} {properties_of(mesh)}"
+
+
+def state_of_material(material):
+    tree = material.node_tree
+    nodes = [(n.name, n.type, n.mute, [plain(getattr(s, "default_value", "")) for s in n.inputs],
+              properties_of(n)) for n in tree.nodes] if tree else []
+    links = [(l.from_node.name, l.from_socket.identifier, l.to_node.name, l.to_socket.identifier,
+              l.is_muted) for l in tree.links] if tree else []
+    state = (material.name, material.use_nodes, sorted(map(str, nodes)), sorted(links))
+    return f"material {state} {properties_of(material)}"
 
 
 def close(a, b, tolerance):

@@ -3,6 +3,8 @@
 
 import os
 import signal
+import struct
+import subprocess
 import sys
 import threading
 import time
@@ -42,7 +44,8 @@ def refusal(command):
     bake = addon.bake.Bake(bpy.context, bpy.context.scene.alpenglow, command)
     bake.wait(bpy.context)
     assert bake.state == addon.bake.FAILED, bake.state
-    assert support.state_of_scene() == before and not left_over()
+    support.check_state(before)
+    assert not left_over()
     assert "\n" not in bake.message
     print(f"  {bake.message}")
     return bake.message
@@ -58,6 +61,9 @@ def test_broken_installs():
     assert "is another program" in refusal(script("other", "echo GNU true 9.1"))
     assert "crashed (SIGSEGV)" in refusal(script("crash", "kill -SEGV $$"))
     assert "ended with 127: " in refusal(script("library", "echo no libembree3.so >&2; exit 127"))
+    addon.run.CHECK_SECONDS = 0.3
+    assert "no answer within 0.3 s" in refusal(script("slow", "exec sleep 60"))
+    addon.run.CHECK_SECONDS = 5
     not_a_program = script("text", "")
     with open(not_a_program, "wb") as file:
         file.write(b"\x7fELF broken")
@@ -83,6 +89,55 @@ def test_failing_bakes():
     assert refusal("").startswith("nothing lights the scene: no lamp shines")
 
 
+def write_glb(document, binary=b""):
+    """A .glb of any JSON. Returns its path."""
+    path = os.path.join(support.FOLDER, "broken.glb")
+    document += b" " * (-len(document) % 4)
+    with open(path, "wb") as file:
+        file.write(b"glTF" + struct.pack("<II", 2, 28 + len(document) + len(binary)))
+        file.write(struct.pack("<I4s", len(document), b"JSON") + document)
+        file.write(struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+    return path
+
+
+def test_broken_results():
+    """Files that the command did not finish, or that are none of its own."""
+    faults = {b"{broken": "its JSON is broken", b"\xff": "its JSON is broken",
+              b"[1]": "has no JSON object", b'{"nodes":[1]}': "nodes: "}
+    for document, fault in faults.items():
+        try:
+            addon.apply.Result(write_glb(document))
+            raise AssertionError(document)
+        except addon.glb.GlbError as error:
+            assert fault in str(error) and "broken.glb: " in str(error), error
+    view, count, kind = '{"buffer":0,"byteLength":%s}', '"count":%s', '"componentType":%s'
+    for numbers in ((12, -1, 5126), (12, 4, 5126), (12, "1e9", 5126), (12, 10 ** 18, 5126),
+                    (99, 1, 5126), (-4, 1, 5126), ('"x"', 1, 5126), (12, 1, 7), (12, "[]", 5126)):
+        text = f'{{"bufferViews":[{view}],"accessors":[{{"bufferView":0,"type":"VEC3",' \
+               f'{count},{kind}}}]}}' % numbers
+        try:
+            addon.glb.Reader(write_glb(text.encode(), bytes(12))).accessor(0)
+            raise AssertionError(text)
+        except addon.glb.GlbError as error:
+            assert "accessor 0: " in str(error) or "buffer view 0: " in str(error), error
+
+
+def test_cut_result():
+    """Each prefix of a result costs one line, and the scene stays."""
+    scene().size = 64
+    out, _ = support.bake_in(support.FOLDER)
+    with open(out, "rb") as file:
+        whole = file.read()
+    scene().size = 64
+    version = "if [ $1 = --version ]; then echo alpenglow 0.1.0; exit; fi\n"
+    cut = os.path.join(support.FOLDER, "cut.glb")
+    for size in (19, 21, 200, len(whole) // 2, len(whole) - 1):
+        with open(cut, "wb") as file:
+            file.write(whole[:size])
+        message = refusal(script("cutter", version + f'cp {cut} "$4"'))
+        assert "the add-on failed" not in message, message
+
+
 def long_bake():
     settings = scene()
     settings.size, settings.stop, settings.error = 2048, "ERROR", 0.01
@@ -102,7 +157,8 @@ def test_cancel():
     bake.cancel()
     assert bake.state == addon.bake.CANCELLED and bake.job.process.returncode == 130
     assert bake.step(bpy.context) == addon.bake.CANCELLED
-    assert support.state_of_scene() == before and not left_over()
+    support.check_state(before)
+    assert not left_over()
 
 
 def test_deaf_child():
@@ -115,6 +171,67 @@ def test_deaf_child():
     addon.run.PATIENCE = 10.0
 
 
+def test_interrupt_without_waiting():
+    """Cancel of the panel returns at once; poll() kills a child that does not heed it."""
+    addon.run.PATIENCE = 0.5
+    job = addon.run.Job([script("deaf", "trap '' INT; while :; do sleep 0.1; done")])
+    time.sleep(0.3)
+    began = time.monotonic()
+    job.interrupt()
+    assert time.monotonic() - began < 0.2 and not job.poll()
+    assert job.describe() == "ending the command"
+    while not job.poll():
+        assert time.monotonic() - began < 5, "the deaf child lives on"
+        time.sleep(0.05)
+    assert job.process.returncode == -signal.SIGKILL
+    addon.run.PATIENCE = 10.0
+
+
+def test_killed_blender():
+    """The command ends with a killed Blender. The next bake removes the folder left over."""
+    pid_file = os.path.join(support.FOLDER, "killed.pid")
+    version = "if [ $1 = --version ]; then echo alpenglow 0.1.0; exit; fi\n"
+    silent = script("silent", version + "exec sleep 300")  # no write to a broken pipe ends it
+    here = os.path.dirname(os.path.abspath(__file__))
+    with subprocess.Popen([bpy.app.binary_path, "-b", "--factory-startup", "--python",
+                           os.path.join(here, "killed.py"), "--", silent, pid_file],
+                          stdout=subprocess.DEVNULL) as blender:
+        deadline = time.monotonic() + 60
+        while not os.path.exists(pid_file):
+            assert time.monotonic() < deadline and blender.poll() is None, "no bake began"
+            time.sleep(0.05)
+        with open(pid_file, encoding="utf-8") as file:
+            child = int(file.read())
+        assert is_running(child) and left_over()
+        blender.kill()
+    while is_running(child):
+        assert time.monotonic() < deadline, "the command runs on"
+        time.sleep(0.05)
+    own = addon.folders.Folder()
+    assert left_over() == [os.path.basename(own.path)], left_over()
+    second = addon.folders.Folder()  # the lock keeps the first
+    assert len(left_over()) == 2
+    own.remove()
+    second.remove()
+    assert not left_over()
+
+
+def is_running(pid):
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
+            return file.read().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_relative_command():
+    """A path that begins with // is in the folder of the .blend."""
+    scene()
+    bpy.ops.wm.save_as_mainfile(filepath=os.path.join(support.FOLDER, "relative.blend"))
+    script("mine", "echo alpenglow 0.1.7")
+    assert addon.run.check_command("//mine")[1] == "0.1.7"
+
+
 def test_interrupt():
     """Ctrl-C ends a bake of a script."""
     bake = long_bake()
@@ -123,7 +240,8 @@ def test_interrupt():
     signal.signal(signal.SIGINT, signal.default_int_handler)
     assert bake.wait(bpy.context) == addon.bake.CANCELLED, bake.message
     assert bake.job.process.returncode == 130
-    assert support.state_of_scene() == before and not left_over()
+    support.check_state(before)
+    assert not left_over()
 
 
 def test_changed_scene():
@@ -157,5 +275,6 @@ def test_fault_of_ours():
     assert not left_over() and addon.bake.Current.bake is None
 
 
-support.main(test_broken_installs, test_failing_bakes, test_cancel, test_deaf_child, test_interrupt,
-             test_changed_scene, test_fault_of_ours)
+support.main(test_broken_installs, test_failing_bakes, test_broken_results, test_cut_result,
+             test_cancel, test_deaf_child, test_interrupt_without_waiting, test_killed_blender,
+             test_interrupt, test_changed_scene, test_fault_of_ours, test_relative_command)

@@ -243,6 +243,35 @@ def test_cut_normals():
     assert worst < 5e-3, f"a normal moved by {worst}"
 
 
+def test_cut_plain_normals():
+    """A cut moves no normal of meshes without custom ones: flat, smooth, and smooth with sharp
+    edges that count or do not."""
+    for is_smooth, has_auto, is_sharp in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 0, 1)):
+        support.empty_scene().what = "OCCLUSION"
+        mesh = support.add_mesh("monkey", "monkey").data
+        mesh.polygons.foreach_set("use_smooth", [is_smooth] * len(mesh.polygons))
+        mesh.use_auto_smooth = bool(has_auto)
+        mesh.edges.foreach_set("use_edge_sharp", [is_sharp and i % 3 == 0
+                                                  for i in range(len(mesh.edges))])
+        rows = [frozenset(mesh.loops[i].vertex_index for i in p.loop_indices)
+                for p in mesh.polygons]
+        before = [dict(zip((mesh.loops[i].vertex_index for i in p.loop_indices),
+                           addon.export.Loops(mesh).normals[list(p.loop_indices)]))
+                  for p in mesh.polygons]
+        _, notes = support.bake()
+        assert any("lie in two charts" in n for n in notes), notes
+        normals, worst = addon.export.Loops(mesh).normals, 0.0
+        for polygon in mesh.polygons:
+            three = frozenset(mesh.loops[i].vertex_index for i in polygon.loop_indices)
+            whole = before[next(i for i, row in enumerate(rows) if three <= row)]
+            for i in polygon.loop_indices:
+                cosine = numpy.dot(normals[i], whole[mesh.loops[i].vertex_index])
+                worst = max(worst, numpy.degrees(numpy.arccos(min(1.0, float(cosine)))))
+        print(f"  smooth {is_smooth}, auto {has_auto}, sharp {is_sharp}: {worst:.3f} degrees")
+        assert worst < 0.5, worst  # two 16-bit angles
+        assert "alpenglow_loop" not in mesh.attributes
+
+
 def test_cut_coordinates():
     """After the cut every triangle has the coordinates that the command gave it."""
     support.empty_scene().what = "OCCLUSION"
@@ -250,7 +279,7 @@ def test_cut_coordinates():
     vertex_of_loop = [loop.vertex_index for loop in mesh.loops]
     out, notes = support.bake_in(support.FOLDER)
     assert "lie in two charts" in notes[0], notes
-    loops, places = addon.apply.Result(out).corners(0)
+    loops, places = addon.apply.Result(out).corners(0, len(vertex_of_loop))
     wanted = {frozenset((vertex_of_loop[i], *uv) for i, uv in zip(three, uvs))
               for three, uvs in zip(loops.tolist(), places.tolist())}
     layer = mesh.uv_layers[addon.nodes.UV_MAP].data
@@ -269,4 +298,4 @@ def normal_at_corners(mesh):
 
 
 support.main(test_instances, test_scatter, test_modifiers, test_curves, test_selected, test_linked,
-             test_old_maps, test_cut_normals, test_cut_coordinates)
+             test_old_maps, test_cut_normals, test_cut_plain_normals, test_cut_coordinates)

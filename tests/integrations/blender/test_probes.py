@@ -44,4 +44,25 @@ def test_probes():
     assert len(bpy.data.objects) == count
 
 
-support.main(test_probes)
+def test_file_of_user():
+    """A file that no bake of probes wrote stays. test_probes ran before."""
+    path = os.path.join(support.FOLDER, "Räume.probes.json")
+    for text in ('{"format": "other"}', "[]", "not JSON"):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        try:
+            bpy.ops.alpenglow.bake()
+            raise AssertionError("a file of the user was overwritten")
+        except RuntimeError as error:
+            assert f"{path}: is not from a bake of probes" in str(error), error
+        with open(path, encoding="utf-8") as file:
+            assert file.read() == text
+    os.remove(path)  # the textures alone
+    try:
+        bpy.ops.alpenglow.bake()
+        raise AssertionError("a texture of the user was overwritten")
+    except RuntimeError as error:
+        assert "Räume.probes.ktx2: is not from a bake of probes" in str(error), error
+
+
+support.main(test_probes, test_file_of_user)

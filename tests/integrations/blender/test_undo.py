@@ -36,11 +36,11 @@ def test_one_step():
     after = support.state_of_scene()
     assert after != before and "monkey.baked" in bpy.data.objects
     assert bpy.ops.ed.undo() == {"FINISHED"}
-    assert support.state_of_scene() == before, support.state_of_scene()
+    support.check_state(before)
     assert bpy.data.objects["cube"].data == bpy.data.objects["twin"].data
     assert bpy.data.objects["monkey"].visible_get()
     assert bpy.ops.ed.redo() == {"FINISHED"}
-    assert support.state_of_scene() == after
+    support.check_state(after)
     images = [i for i in bpy.data.images if i.get("alpenglow")]
     assert len(images) == 2 and all(i.packed_file is not None for i in images)
 
@@ -53,7 +53,7 @@ def test_saved_file():
     path = os.path.join(support.FOLDER, "saved.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
-    assert support.state_of_scene() == state
+    support.check_state(state)
     light = next(i for i in bpy.data.images if i.get("alpenglow") == "light")
     assert max(light.pixels[:]) > 0.1 and light.packed_file is not None
 

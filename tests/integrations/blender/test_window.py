@@ -59,7 +59,7 @@ def test():
     while Current.bake is not None:
         yield
     assert job.process.returncode == 130 and "cancelled" in Current.message, Current.message
-    assert support.state_of_scene() == before
+    support.check_state(before)
     print("ok cancel", flush=True)
 
     settings.size, settings.error = 64, 4
@@ -73,7 +73,7 @@ def test():
     assert "Alpenglow" in bpy.data.objects["floor"].data.uv_layers, Current.message
     assert undo() == {"FINISHED"}
     yield
-    assert support.state_of_scene() == before, support.state_of_scene()
+    support.check_state(before)
     print("ok bake and undo", flush=True)
 
     settings = bpy.context.scene.alpenglow
