@@ -250,7 +250,7 @@ class Applier:
         tree = material.node_tree
         nodes.remove(tree)
         read, _ = surface.read(material)
-        if tree.get_output_node("ALL") is None:
+        if nodes.output_of(tree) is None:
             self.notes.append(f"material {material.name} has no output: it shows no map")
             return material
         if page.occlusion is not None:
