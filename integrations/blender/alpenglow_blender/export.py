@@ -76,7 +76,7 @@ def material_of(shown, mesh, index):
 
 
 def bound_names(view_layer):
-    """Objects whose own mesh may not be cut: their modifiers are bound to it, or those of others."""
+    """Objects whose own mesh may not be cut: modifiers are bound to it."""
     found = set()
     for shown in view_layer.objects:
         for modifier in shown.modifiers:

@@ -163,7 +163,8 @@ def test_other_alpha():
     element, notes, writer = exported(material)
     assert element["alphaMode"] == "BLEND" and not notes, notes
     found = pixels_of(writer, 0)
-    assert numpy.allclose(found[..., 3], alphas[..., 3], atol=1 / 255) and (found[..., :3] == 1).all()
+    assert numpy.allclose(found[..., 3], alphas[..., 3], atol=1 / 255)
+    assert (found[..., :3] == 1).all()
     node = tree.nodes.new("ShaderNodeTexImage")
     node.image = image_of("colours", colours)
     tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
