@@ -12,7 +12,8 @@ FOLDER = pathlib.Path(__file__).resolve().parent
 def main(out):
     part = f"{out}.part"
     with zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted((FOLDER / "alpenglow_blender").glob("*.py")):
+        folder = FOLDER / "alpenglow_blender"
+        for path in sorted([*folder.glob("*.py"), folder / "blender_manifest.toml"]):
             entry = zipfile.ZipInfo(f"alpenglow_blender/{path.name}", (1980, 1, 1, 0, 0, 0))
             entry.external_attr = 0o644 << 16
             entry.compress_type = zipfile.ZIP_DEFLATED

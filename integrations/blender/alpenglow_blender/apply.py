@@ -257,8 +257,8 @@ class Applier:
 def obstacles(material, read, maps):
     """Why a material does not show each map, occlusion before light; "" for one that it shows."""
     if material is not None and material.use_nodes and \
-            material.node_tree.get_output_node("ALL") is None:
-        fault = f"material {material.name} has no output for all engines: it shows no map"
+            nodes.output_of(material.node_tree) is None:
+        fault = f"material {material.name} has no output: it shows no map"
         return [fault for image in (maps.occlusion, maps.light) if image is not None]
     reasons = []
     if maps.occlusion is not None:

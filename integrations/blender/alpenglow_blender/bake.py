@@ -22,7 +22,7 @@ def options_of(settings):
         options += ["--quality", settings.quality.lower()]
     maps = [name for name, wanted in (("ao", settings.bakes_occlusion),
                                       ("light", settings.bakes_light)) if wanted]
-    options += ["--maps", ",".join(maps), "--size", str(settings.size)]
+    options += ["--maps", ",".join(maps), "--size", str(settings.size), "--atlas", "charts"]
     if settings.bakes_light:
         options += ["--lightmap-as", "extras", "--lightmap-format", "exr",
                     "--units", "irradiance/pi"]
@@ -47,7 +47,8 @@ class Bake:
         path, _ = run.check_command(command)
         self.folder = folders.Folder()
         self.place = place.Place(context)
-        exporter = export.Exporter(context, settings.scope == "SELECTED")
+        exporter = export.Exporter(context, settings.scope == "SELECTED",
+                                   settings.what != "OCCLUSION")
         scene = os.path.join(self.folder.path, "scene.glb")
         exporter.write(scene)
         self.out = os.path.join(self.folder.path, "baked.glb")

@@ -17,6 +17,9 @@ SHAPED = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
 OWN, BAKED, KEPT = "own", "baked", "kept"  # what becomes of an item
 KEPT_END = "~"  # last letter of the name of a node that gets no texels
 SOURCE = "alpenglow_source"
+# Modifiers with data of faces, edges or corners, which a cut of polygons would spoil.
+BOUND = {"MULTIRES", "MESH_DEFORM", "SURFACE_DEFORM", "LAPLACIANDEFORM", "CORRECTIVE_SMOOTH",
+         "MESH_SEQUENCE_CACHE", "EXPLODE", "CLOTH", "SOFT_BODY", "PARTICLE_SYSTEM"}
 
 
 class ExportError(Exception):
@@ -72,13 +75,41 @@ def material_of(shown, mesh, index):
     return None if found is None else found.original
 
 
-def fate_of(instance, mesh, instancers):
-    shown = (instance.parent if instance.is_instance else instance.object).original
+def bound_names(view_layer):
+    """Objects whose own mesh may not be cut: modifiers are bound to it."""
+    found = set()
+    for shown in view_layer.objects:
+        for modifier in shown.modifiers:
+            if modifier.type in BOUND:
+                found.add(shown.name_full)
+            if modifier.type == "SURFACE_DEFORM" and modifier.target is not None:
+                found.add(modifier.target.name_full)
+    return found
+
+
+def reason_to_keep(shown, view_layer):
+    """Why a shown object takes no result, for the user; None for one that takes it."""
     if shown.library is not None or shown.override_library is not None:
-        return KEPT
-    if instance.is_instance or shown.name_full in instancers or shown.type != "MESH":
+        return "is linked from another file", "make it local to bake it"
+    if shown.name_full not in view_layer.objects:
+        return "is in a background scene", "bake that scene to bake it"
+    return None
+
+
+def fate_of(instance, mesh, cannot_take):
+    """cannot_take: names of objects that do not take the result themselves."""
+    shown = (instance.parent if instance.is_instance else instance.object).original
+    if instance.is_instance or shown.name_full in cannot_take or shown.type != "MESH":
         return BAKED
     return OWN if topology_of(mesh) == topology_of(shown.data) else BAKED
+
+
+def unread(name, shown):
+    """Lines for the user: settings of an object that no bake reads."""
+    if not shown.visible_shadow:
+        yield f"{name}: Ray Visibility without Shadow is not read; the object shades others"
+    if not shown.visible_diffuse:
+        yield f"{name}: Ray Visibility without Diffuse is not read; the object reflects onto others"
 
 
 def replaced_names(context):
@@ -90,8 +121,8 @@ def replaced_names(context):
 
 
 class Exporter:
-    def __init__(self, context, selected_only):
-        self.context, self.selected_only = context, selected_only
+    def __init__(self, context, selected_only, with_lamps=True):
+        self.context, self.selected_only, self.with_lamps = context, selected_only, with_lamps
         self.depsgraph = context.evaluated_depsgraph_get()
         self.writer, self.items, self.notes = glb.Writer(), [], []
         self.materials, self.textures, self.suns = {}, {}, []
@@ -103,24 +134,29 @@ class Exporter:
             raise ExportError("nothing to bake: " + (
                 "select objects with a surface, or bake what is visible" if self.selected_only
                 else "no visible object of this file has a surface"))
+        if self.with_lamps:
+            self.add_lamps(replaced)
+        self.add_camera(self.context.scene.camera)
+        self.writer.write(path)
+        self.notes = list(dict.fromkeys(self.notes))
+
+    def add_lamps(self, replaced):
         for instance in self.depsgraph.object_instances:
             shown = instance.parent if instance.is_instance else instance.object
             if instance.object.type == "LIGHT" and instance.show_self and \
                     not shown.original.hide_render and shown.name_full not in replaced:
                 self.add_lamp(instance.object, instance.matrix_world)
-        self.add_camera(self.context.scene.camera)
-        self.writer.write(path)
-        self.notes = list(dict.fromkeys(self.notes))
 
     def add_shapes(self, replaced):
-        instancers = {i.parent.name_full for i in self.depsgraph.object_instances if i.is_instance}
+        cannot_take = bound_names(self.context.view_layer) | {
+            i.parent.name_full for i in self.depsgraph.object_instances if i.is_instance}
         for instance in shapes(self.depsgraph, self.selected_only):
             if instance.object.name_full in replaced and not instance.is_instance:
                 continue
             mesh = instance.object.to_mesh()
             try:
                 if mesh is not None and len(mesh.polygons):
-                    self.add_shape(instance, mesh, fate_of(instance, mesh, instancers))
+                    self.add_shape(instance, mesh, fate_of(instance, mesh, cannot_take))
             finally:
                 instance.object.to_mesh_clear()
 
@@ -129,9 +165,13 @@ class Exporter:
         key, name = key_of(instance), shown.name
         if instance.is_instance and key[0] != shown.name_full:
             name = f"{instance.parent.name}/{name}"
-        if fate == KEPT:
-            self.notes.append(f"{name} is linked from another file: it shades and reflects, and "
-                              "keeps its look; make it local to bake it")
+        kept = reason_to_keep((instance.parent if instance.is_instance else instance.object)
+                              .original, self.context.view_layer)
+        if kept is not None:
+            fate = KEPT
+            self.notes.append(f"{name} {kept[0]}: it shades and reflects, and keeps its look; "
+                              f"{kept[1]}")
+        self.notes += unread(name, instance.object)
         primitives = self.primitives_of(instance.object, mesh)
         element = {"name": name, "primitives": primitives}
         node = {"name": node_name(name, fate), "mesh": self.writer.add("meshes", element),
@@ -150,37 +190,36 @@ class Exporter:
         primitives = []
         for slot in numpy.unique(loops.slots).tolist():
             material = material_of(shown, mesh, slot)
-            index, uv_map = self.material_index(material)
+            index, uv_maps = self.material_index(material)
             triangles = loops.triangles[loops.slots == slot]
             used, corners = numpy.unique(triangles, return_inverse=True)
             add = self.writer.add_accessor
             attributes = {"POSITION": add(loops.positions[used], "VEC3", bounds=True),
                           "NORMAL": add(loops.normals[used], "VEC3"),
                           "_LOOP": add(used.astype("<u4").view(numpy.uint8).reshape(-1, 4), "VEC4")}
-            uvs = uvs_of(mesh, uv_map)
-            if uvs is not None:
-                attributes["TEXCOORD_0"] = add(uvs[used], "VEC2")
+            for number, name in enumerate(uv_maps if mesh.uv_layers else ()):
+                attributes[f"TEXCOORD_{number}"] = add(uvs_of(mesh, name)[used], "VEC2")
             indices = add(corners.astype(numpy.uint32).ravel(), "SCALAR", glb.ELEMENT_ARRAY_BUFFER)
             primitives.append({"attributes": attributes, "indices": indices, "material": index})
         return primitives
 
     def material_index(self, material):
-        """(index of the glTF material, name of the UV map of its texture)."""
+        """(index of the glTF material, names of the UV maps of its textures)."""
         key = None if material is None else material.name_full
         if key not in self.materials:
             read, notes = surface.read(material)
             self.notes += notes
-            element = images.material_element(self, material, read)
-            self.materials[key] = (self.writer.add("materials", element), read.base.uv_map or
-                                   read.emission.uv_map)
+            element, uv_maps = images.material_element(self, material, read)
+            self.materials[key] = self.writer.add("materials", element), uv_maps
         return self.materials[key]
 
     def add_lamp(self, shown, matrix):
         lamp = shown.data
-        if lamp.energy <= 0 or max(lamp.color) <= 0:
-            if lamp.energy < 0:
-                self.notes.append(f"{shown.name} takes light away, which no bake does: left out")
+        if lamp.energy < 0:
+            self.notes.append(f"{shown.name} takes light away, which no bake does: left out")
+        if lamps.is_dark(shown):
             return
+        self.notes += lamps.unread(shown)
         if lamp.type == "SUN":
             self.suns.append((lamp.energy, lamp.angle))
         if lamp.type == "AREA":
@@ -189,12 +228,12 @@ class Exporter:
         self.writer.use("KHR_lights_punctual")
         extensions = self.writer.document.setdefault("extensions", {})
         lights = extensions.setdefault("KHR_lights_punctual", {"lights": []})["lights"]
-        lights.append(lamps.punctual(lamp, self.notes))
+        lights.append(lamps.punctual(lamp))
         reference = {"KHR_lights_punctual": {"light": len(lights) - 1}}
         self.add_node({"name": shown.name, "extensions": reference}, matrix)
 
     def add_area_lamp(self, shown, matrix):
-        """An area lamp is a plate that emits from its front."""
+        """An area lamp is a plate that emits from its front and blocks no light."""
         lamp = shown.data
         corners = lamps.outline_of(lamp)
         area = lamps.world_area(corners, matrix)
@@ -203,9 +242,8 @@ class Exporter:
         fan = numpy.array([(0, i, i + 1) for i in range(1, len(corners) - 1)], numpy.uint32)
         add = self.writer.add_accessor
         normals = numpy.tile(numpy.float32((0, 0, -1)), (len(corners), 1))
-        radiance = lamps.radiance_of(lamp.energy, area)
-        plate = surface.Surface(emission=surface.Colour(tuple(radiance * c for c in lamp.color)))
-        element = images.material_element(self, None, plate)
+        plate = lamps.plate(lamp, lamps.radiance_of(lamp.energy, area))
+        element, _ = images.material_element(self, None, plate)
         element.update(name=lamp.name, doubleSided=False)
         primitive = {"attributes": {"POSITION": add(numpy.float32(corners), "VEC3", bounds=True),
                                     "NORMAL": add(normals, "VEC3")},
@@ -246,12 +284,10 @@ def node_name(name, fate):
 
 
 def uvs_of(mesh, name):
-    """glTF's coordinates [loops][2] of a UV map, or of the one that renders; None without any."""
+    """glTF's coordinates [loops][2] of a UV map, or of the one that renders."""
     layer = mesh.uv_layers.get(name) if name else None
     if layer is None:
-        layer = next((u for u in mesh.uv_layers if u.active_render), None)
-    if layer is None:
-        return None
+        layer = next((u for u in mesh.uv_layers if u.active_render), mesh.uv_layers[0])
     uvs = numpy.empty(2 * len(mesh.loops), numpy.float32)
     layer.data.foreach_get("uv", uvs)
     uvs = uvs.reshape(-1, 2)
@@ -279,8 +315,24 @@ class Loops:
         else:
             mesh.loops.foreach_get("normal", normals)
         self.normals = normals.reshape(-1, 3)
+        self.mend_normals(mesh)
         triangles = numpy.empty(3 * len(mesh.loop_triangles), numpy.int32)
         mesh.loop_triangles.foreach_get("loops", triangles)
         self.triangles = triangles.reshape(-1, 3)
         self.slots = numpy.empty(len(mesh.loop_triangles), numpy.int32)
         mesh.loop_triangles.foreach_get("material_index", self.slots)
+
+    def mend_normals(self, mesh):
+        """Gives corners without a normal that of their polygon, or +Z for one without area."""
+        lengths = numpy.linalg.norm(self.normals, axis=1)
+        wrong = numpy.flatnonzero(~(lengths > 0.5))  # also NaN
+        if len(wrong) == 0:
+            return
+        normals = numpy.empty(3 * len(mesh.polygons), numpy.float32)
+        mesh.polygons.foreach_get("normal", normals)
+        totals = numpy.empty(len(mesh.polygons), numpy.int32)
+        mesh.polygons.foreach_get("loop_total", totals)
+        polygons = numpy.repeat(numpy.arange(len(totals)), totals)  # corners lie in their order
+        normals = normals.reshape(-1, 3)[polygons[wrong]]
+        normals[~(numpy.linalg.norm(normals, axis=1) > 0.5)] = (0, 0, 1)
+        self.normals[wrong] = normals

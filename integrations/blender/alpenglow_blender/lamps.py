@@ -24,7 +24,10 @@ import math
 
 import numpy
 
+from .surface import Colour, Opacity, Surface
+
 DISK_CORNERS = 32
+PLATE_ALPHA = 0.25  # occlusion takes a blended surface as open below 0.5
 
 
 def intensity_of(power):
@@ -46,13 +49,43 @@ def cone_of(size, blend):
     return min(inner, outer - 1e-4), outer
 
 
-def punctual(lamp, notes):
+def is_dark(shown):
+    """Whether a lamp lights no diffuse surface. A portal guides the rays of Cycles to the sky."""
+    lamp = shown.data
+    cycles = getattr(lamp, "cycles", None)
+    return lamp.energy <= 0 or max(lamp.color) <= 0 or not shown.visible_diffuse or \
+        (lamp.type == "AREA" and getattr(cycles, "is_portal", False))
+
+
+def unread(shown):
+    """Lines for the user: settings of a lamp that no bake reads."""
+    lamp = shown.data
+    cycles = getattr(lamp, "cycles", None)
+    if lamp.use_nodes:
+        yield f"{shown.name}: nodes of lamps are not read; colour and power are"
+    if lamp.type == "AREA" and lamp.spread < math.pi - 1e-3:
+        yield f"{shown.name}: the spread is not read; the lamp shines by the cosine to all angles"
+    if not getattr(cycles, "cast_shadow", lamp.use_shadow):
+        yield f"{shown.name}: a lamp without shadows is not read; objects shade its light"
+    linking = getattr(shown, "light_linking", None)  # from Blender 4.0
+    if linking is not None and (linking.receiver_collection or linking.blocker_collection):
+        yield f"{shown.name}: light linking is not read; the lamp lights all objects"
+
+
+def plate(lamp, radiance):
+    """The Surface of an area lamp of `radiance` [W/sr/m2]. No lamp of Cycles blocks light.
+
+    A surface of alpha a, transmission 1 and colour 1 lets (1 - a) + a = 1 of the light through,
+    reflects nothing, and emits a L (docs/conventions.md, "Sides and panes")."""
+    emission = Colour(tuple(radiance / PLATE_ALPHA * c for c in lamp.color))
+    return Surface(Colour((1.0, 1.0, 1.0)), emission, Opacity(PLATE_ALPHA), transmission=1.0)
+
+
+def punctual(lamp):
     """The KHR_lights_punctual light of a point, spot or sun lamp."""
     light = {"name": lamp.name, "color": [max(0.0, c) for c in lamp.color]}
     strongest = max(1.0, *light["color"])
     light["color"] = [c / strongest for c in light["color"]]
-    if lamp.use_nodes:
-        notes.append(f"{lamp.name}: nodes of lamps are not read; colour and power are")
     if lamp.type == "SUN":
         return dict(light, type="directional", intensity=lamp.energy * strongest)
     light["intensity"] = intensity_of(lamp.energy) * strongest

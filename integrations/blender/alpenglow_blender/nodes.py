@@ -18,6 +18,11 @@ UV_MAP = "Alpenglow"
 BRIGHTEST_ALBEDO = 0.95
 
 
+def output_of(tree):
+    """The output node that Cycles shows, else EEVEE's; None without any."""
+    return tree.get_output_node("CYCLES") or tree.get_output_node("EEVEE")
+
+
 def is_group(node, name):
     return node.type == "GROUP" and node.node_tree is not None and \
         node.node_tree.get(MARK) == f"{name} {VERSION}"
@@ -154,7 +159,7 @@ def pass_on(tree, link, socket):
 
 def show_light(tree, surface, image, intensity, uv_map):
     """Puts the group of light before the output. surface: of this material, read before."""
-    target = tree.get_output_node("ALL").inputs["Surface"]
+    target = output_of(tree).inputs["Surface"]
     x, y = target.node.location
     node = add_group(tree, LIGHT, build_light, (x, y + 250))
     if target.links:

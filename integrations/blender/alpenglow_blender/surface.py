@@ -39,13 +39,31 @@ class Colour:
 
 
 @dataclass
+class Opacity:
+    """factor x the alpha of an image, in [0, 1]. `source` is the output socket that has the whole
+    number, also where its nodes are not read. cutoff: None, or opaque from there on, else open."""
+    factor: float = 1.0
+    image: Any = None
+    uv_map: str = ""
+    cutoff: Any = None
+    source: Any = None
+
+
+@dataclass
 class Surface:
     base: Colour = field(default_factory=Colour)
     emission: Colour = field(default_factory=Colour)  # radiance, strength included
-    alpha: float = 1.0
-    alpha_source: Any = None  # an image's alpha, times `alpha`
+    opacity: Opacity = field(default_factory=Opacity)
     transmission: float = 0.0
     tinted: list = field(default_factory=list)  # colour inputs of the shaders, for occlusion
+
+    @property
+    def alpha(self):
+        return self.opacity.factor
+
+    @property
+    def alpha_source(self):
+        return self.opacity.source
 
     def is_pane(self):
         return self.transmission > 0
@@ -57,9 +75,11 @@ def read(material):
         return Surface(base=Colour(BARE)), []
     if not material.use_nodes or material.node_tree is None:
         return Surface(base=Colour(tuple(material.diffuse_color[:3]))), []
+    output = nodes.output_of(material.node_tree)
+    if output is None:
+        return Surface(), [f"{material.name} has no output node; it counts as black"]
     notes = []
-    output = material.node_tree.get_output_node("ALL")
-    surface = shader(output.inputs["Surface"], notes) if output else Surface()
+    surface = shader(output.inputs["Surface"], notes)
     return surface, [f"{material.name}: {note}" for note in dict.fromkeys(notes)]
 
 
@@ -154,7 +174,7 @@ def shader(socket, notes):
         return Surface(base=colour(socket, notes), transmission=float(node.type in CLEAR),
                        tinted=[socket])
     if node.type == "BSDF_TRANSPARENT":
-        return Surface(alpha=0.0)
+        return Surface(opacity=Opacity(0.0))
     if node.type == "MIX_SHADER":
         return mixed_shader(node, notes)
     if node.type == "ADD_SHADER":
@@ -172,38 +192,77 @@ def principled(node, notes):
     base = node.inputs["Base Color"]
     strength = number(node.inputs["Emission Strength"], notes)
     emission = colour(first_input(node, "Emission Color", "Emission"), notes)
-    alpha, source = opacity(node.inputs["Alpha"])
-    return Surface(colour(base, notes), emission.scaled((strength,) * 3), alpha, source,
+    return Surface(colour(base, notes), emission.scaled((strength,) * 3),
+                   opacity(node.inputs["Alpha"], notes),
                    number(first_input(node, "Transmission Weight", "Transmission"), notes), [base])
 
 
-def opacity(socket):
-    """(factor, source): the image alpha that feeds a number, behind nodes of arithmetic."""
+def opacity(socket, notes):
+    """The Opacity that a number input gets."""
     source = origin(socket)
     if source is None:
-        return float(socket.default_value), None
-    behind = source
-    for _ in range(100):
-        if behind is None or behind.node.type == "TEX_IMAGE":
-            break
-        inputs = (origin(s) for s in behind.node.inputs)
-        behind = next((s for s in inputs if s is not None), None)
-    return 1.0, source if behind is not None and behind.name == "Alpha" else None
+        return Opacity(float(socket.default_value))
+    found = opacity_of(source)
+    if found is None:
+        notes.append(f"{source.name} of {source.node.name} is not read as opacity; the bake takes "
+                     "the surface as opaque")
+        found = Opacity()
+    found.source = source
+    return found
+
+
+def opacity_of(source, depth=0):
+    """The Opacity of an output socket; None if its nodes are not read."""
+    node = source.node
+    if node.type == "TEX_IMAGE" and node.image is not None and source.name == "Alpha":
+        return Opacity(image=node.image, uv_map=uv_of(node))
+    if node.type == "VALUE":
+        return Opacity(min(max(float(source.default_value), 0.0), 1.0))
+    return arithmetic(node, depth) if node.type == "MATH" and depth < 100 else None
+
+
+def arithmetic(node, depth):
+    """A product of an Opacity with a constant in [0, 1], or its comparison with a constant."""
+    used = [s for s in node.inputs if s.enabled]
+    linked = [s for s in used if origin(s) is not None]
+    found = opacity_of(origin(linked[0]), depth + 1) if len(linked) == 1 else None
+    if found is None or found.cutoff is not None:
+        return None
+    other = next((float(s.default_value) for s in used if s is not linked[0]), 0.5)
+    if node.operation == "MULTIPLY" and 0 <= other <= 1:
+        found.factor *= other
+        return found
+    is_above = {"GREATER_THAN": linked[0] == used[0], "LESS_THAN": linked[0] != used[0],
+                "ROUND": True}
+    if not is_above.get(node.operation, False):
+        return None
+    found.cutoff = other
+    return found
 
 
 def mixed_shader(node, notes):
     amount = node.inputs["Fac"] if "Fac" in node.inputs else node.inputs[0]
     a, b = shader(node.inputs[1], notes), shader(node.inputs[2], notes)
     if a.alpha == 0 or b.alpha == 0:
-        solid, share = (b, opacity(amount)) if a.alpha == 0 else (a, (1.0, None))
-        if solid is a and origin(amount) is None:
-            share = (1 - float(amount.default_value), None)
-        solid.alpha, solid.alpha_source = share
-        return solid
+        return veiled(node, amount, a, b, notes)
     share = number(amount, notes) if origin(amount) is None else 0.5
     if origin(amount) is not None:
         notes.append(f"the factor of {node.name} is a link, which is not read; it counts as 0.5")
     return added(scaled(a, 1 - share), scaled(b, share), notes)
+
+
+def veiled(node, amount, a, b, notes):
+    """A mix with a transparent shader: the other one with an opacity."""
+    solid, share = (b, opacity(amount, notes)) if a.alpha == 0 else (a, Opacity())
+    if solid is a and origin(amount) is None:
+        share = Opacity(1 - float(amount.default_value))
+    elif solid is a:
+        notes.append(f"the factor of {node.name} is a link from a solid to a transparent shader, "
+                     "which is not read; the bake takes the surface as opaque")
+    if solid.alpha_source is not None or 0 < solid.alpha < 1:
+        notes.append(f"{node.name} mixes two opacities; its own counts alone")
+    solid.opacity = share
+    return solid
 
 
 def scaled(surface, by):
@@ -227,5 +286,5 @@ def total(a, b, notes):
 
 def added(a, b, notes):
     return Surface(total(a.base, b.base, notes), total(a.emission, b.emission, notes),
-                   min(a.alpha, b.alpha), a.alpha_source or b.alpha_source,
+                   a.opacity if a.opacity.source or a.alpha < b.alpha else b.opacity,
                    min(1.0, a.transmission + b.transmission), a.tinted + b.tinted)

@@ -7,7 +7,7 @@ along -Z, which is Blender's +Y."""
 
 import os
 
-from . import images
+from . import images, nodes
 
 ENDINGS = {b"\x76\x2f\x31\x01": ".exr", b"#?RA": ".hdr", b"#?RG": ".hdr"}
 
@@ -18,7 +18,7 @@ def sky_options(world, folder, notes):
         return []
     if not world.use_nodes:
         return even_sky(world.color)
-    output = world.node_tree.get_output_node("ALL")
+    output = nodes.output_of(world.node_tree)
     links = output.inputs["Surface"].links if output else ()
     if not links:
         return []

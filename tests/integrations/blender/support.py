@@ -45,7 +45,9 @@ def add_material(name, colour, emission=0.0):
     principled = material.node_tree.nodes["Principled BSDF"]
     principled.inputs["Base Color"].default_value = (*colour, 1)
     if emission:
-        principled.inputs["Emission"].default_value = (*colour, 1)
+        emitted = sys.modules[f"{MODULE}.surface"].first_input(
+            principled, "Emission Color", "Emission")
+        emitted.default_value = (*colour, 1)
         principled.inputs["Emission Strength"].default_value = emission
     return material
 
@@ -152,12 +154,25 @@ def read_exr(path):
     return pixels.reshape(height, width, channels)[::-1, :, :3]
 
 
+def exposed(picture, like):
+    """What a screen shows of a picture, in sRGB. White is what 1 % of the pixels of `like`
+    exceed."""
+    white = numpy.quantile(like.max(axis=2), 0.99)
+    assert white > 0, "a black picture"
+    x = numpy.clip(picture / white, 0, 1)
+    return numpy.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
+
+
 def close_share(a, b):
-    """Share of pixels whose channels differ by at most 1/255, of what a screen of white 1 shows."""
-    def shown(x):
-        x = numpy.clip(x, 0, 1)
-        return numpy.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
-    return float((numpy.abs(shown(a) - shown(b)) <= 1 / 255).all(axis=2).mean())
+    """Share of pixels whose channels differ by at most 1/255 on a screen."""
+    return float((numpy.abs(exposed(a, b) - exposed(b, b)) <= 1 / 255).all(axis=2).mean())
+
+
+def unseen_shares(picture):
+    """Shares of pixels that a screen shows as white in some channel, and as black in all."""
+    shown = exposed(picture, picture)
+    white, black = (shown >= 1 - 1e-5).any(axis=2), (shown <= 0.5 / 255).all(axis=2)
+    return float(white.mean()), float(black.mean())
 
 
 def state_of_scene():

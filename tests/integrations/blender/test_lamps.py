@@ -118,6 +118,68 @@ def test_scaled_area():
     check("square", shown, expected)
 
 
+def wide_lamp(height=HEIGHT):
+    """A disk of 1 m radius, which hides a part of the sky and a sun above it."""
+    return support.add_lamp("AREA", "lamp", POWER, (0, 0, height), shape="DISK", size=2.0)
+
+
+def test_area_beside_sun():
+    """The disk is between the sun and the plane. A lamp of Cycles blocks no light."""
+    shown = plane()
+    wide_lamp()
+    support.add_lamp("SUN", "sun", 4.0, (0, 0, HEIGHT), angle=math.radians(0.5))
+    check("disk and sun", shown, disk(1.0) + 4.0)
+
+
+def test_area_beside_sky():
+    """Occlusion in the same bake sees no lamp either."""
+    shown = plane()
+    bpy.context.scene.alpenglow.what = "BOTH"
+    wide_lamp()
+    support.set_world((1.0, 1.0, 1.0))
+    check("disk and sky", shown, disk(1.0) + math.pi)
+    assert occlusion_of_bake() == 1.0, occlusion_of_bake()
+
+
+def occlusion_of_bake():
+    """The darkest texel of the map."""
+    image = next(i for i in bpy.data.images if i.get("alpenglow") == "occlusion")
+    return float(numpy.array(image.pixels[:]).reshape(-1, 4)[:, 0].min())
+
+
+def test_occlusion():
+    """A bake of occlusion has no lamps in its file."""
+    shown = plane()
+    bpy.context.scene.alpenglow.what = "OCCLUSION"
+    wide_lamp(0.2)
+    support.add_lamp("POINT", "bulb", POWER, (0, 0, HEIGHT))
+    support.bake()
+    assert occlusion_of_bake() == 1.0, occlusion_of_bake()
+    exporter = addon.export.Exporter(bpy.context, False, with_lamps=False)
+    exporter.write(os.path.join(support.FOLDER, "occlusion.glb"))
+    names = [n["name"] for n in exporter.writer.document["nodes"]]
+    assert names == [shown.name, "Camera"], names
+
+
+def test_unread():
+    """Portals and lamps that diffuse surfaces do not see light nothing; the rest costs a note."""
+    shown = plane()
+    wide_lamp().data.cycles.is_portal = True
+    support.add_lamp("POINT", "glint", POWER, (0, 0, HEIGHT)).visible_diffuse = False
+    support.set_world((0.5, 0.5, 0.5))
+    check("portal", shown, math.pi * 0.5)
+    assert sys.modules["alpenglow_blender.bake"].Current.notes == []
+    shown = plane()
+    wide_lamp().data.spread = math.radians(90)
+    support.add_lamp("SUN", "sun", 1.0, (0, 0, HEIGHT)).data.cycles.cast_shadow = False
+    support.add_lamp("POINT", "tree", POWER, (0, 0, HEIGHT)).data.use_nodes = True
+    shown.visible_shadow = shown.visible_diffuse = False
+    _, notes = support.bake()
+    for start in ("lamp: the spread", "sun: a lamp without shadows", "tree: nodes of lamps",
+                  "plane: Ray Visibility without Shadow", "plane: Ray Visibility without Diffuse"):
+        assert sum(n.startswith(start) for n in notes) == 1, (start, notes)
+
+
 def test_world():
     """E = pi L under an even sky."""
     shown = plane()
@@ -178,4 +240,5 @@ def test_file():
 
 
 support.main(test_formulas, test_point, test_spot, test_sun, test_area, test_scaled_area,
-             test_world, test_picture, test_file)
+             test_area_beside_sun, test_area_beside_sky, test_occlusion, test_unread, test_world,
+             test_picture, test_file)

@@ -68,6 +68,172 @@ def test_reading():
     assert near(addon.surface.read(None)[0].base.factor, (0.8, 0.8, 0.8))
 
 
+def image_of(name, pixels, **options):
+    """An image from floats [height][width][4], the first row at the bottom."""
+    image = bpy.data.images.new(name, pixels.shape[1], pixels.shape[0], alpha=True, **options)
+    image.pixels.foreach_set(numpy.float32(pixels).ravel())
+    return image
+
+
+def leaf(name, build):
+    """A Principled material whose Alpha is what `build(nodes, links, image node)` returns."""
+    material = support.add_material(name, (1, 1, 1))
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image_of(name, numpy.full((4, 4, 4), 0.5))
+    principled = tree.nodes["Principled BSDF"]
+    tree.links.new(build(tree.nodes, tree.links, node), principled.inputs["Alpha"])
+    return material
+
+
+def math(nodes, links, operation, *inputs):
+    node = nodes.new("ShaderNodeMath")
+    node.operation = operation
+    for socket, value in zip(node.inputs, inputs):
+        if isinstance(value, float):
+            socket.default_value = value
+        else:
+            links.new(value, socket)
+    return node.outputs[0]
+
+
+def exported(material):
+    """(glTF material, notes, writer) of a material."""
+    exporter = addon.export.Exporter(bpy.context, False)
+    exporter.material_index(material)
+    return exporter.writer.document["materials"][0], exporter.notes, exporter.writer
+
+
+def test_opacity():
+    """Constants, an image's alpha, products and comparisons are read; all else costs a note."""
+    support.empty_scene()
+    element, notes, _ = exported(leaf("product", lambda n, l, i: math(
+        n, l, "MULTIPLY", 0.5, math(n, l, "MULTIPLY", i.outputs["Alpha"], 0.5))))
+    assert element["alphaMode"] == "BLEND" and not notes, notes
+    assert near(element["pbrMetallicRoughness"]["baseColorFactor"], (1, 1, 1, 0.25))
+    for name, operation, inputs, cutoff in (("above", "GREATER_THAN", (None, 0.3), 0.3),
+                                            ("below", "LESS_THAN", (0.7, None), 0.7),
+                                            ("round", "ROUND", (None,), 0.5)):
+        element, notes, _ = exported(leaf(name, lambda n, l, i: math(
+            n, l, operation, *(i.outputs["Alpha"] if x is None else x for x in inputs))))
+        assert element["alphaMode"] == "MASK" and near(element["alphaCutoff"], cutoff), element
+        assert not notes, notes
+    for name, build in (
+            ("colour", lambda n, l, i: i.outputs["Color"]),
+            ("noise", lambda n, l, i: n.new("ShaderNodeTexNoise").outputs["Fac"]),
+            ("two", lambda n, l, i: math(n, l, "MULTIPLY", i.outputs["Alpha"],
+                                         n.new("ShaderNodeTexNoise").outputs["Fac"])),
+            ("double", lambda n, l, i: math(n, l, "MULTIPLY", i.outputs["Alpha"], 2.0)),
+            ("wrong side", lambda n, l, i: math(n, l, "GREATER_THAN", 0.5, i.outputs["Alpha"]))):
+        element, notes, _ = exported(leaf(name, build))
+        assert "alphaMode" not in element and len(notes) == 1, (name, element, notes)
+        assert notes[0].startswith(f"{name}: ") and "is not read as opacity" in notes[0], notes
+    found, notes = read("veil", lambda n, l: veil(n, l))
+    assert found.alpha == 1 and "from a solid to a transparent shader" in notes[0], notes
+
+
+def veil(nodes, links):
+    shown = mixed(nodes, links, 0.5, shader(nodes, "BsdfDiffuse", (1, 1, 1)),
+                  shader(nodes, "BsdfTransparent", (1, 1, 1)))
+    links.new(nodes.new("ShaderNodeTexNoise").outputs["Fac"], shown.node.inputs[0])
+    return shown
+
+
+def pixels_of(writer, index):
+    """The pixels [height][width][4] of an image of a .glb, the first row at the bottom."""
+    start = writer.document["bufferViews"][writer.document["images"][index]["bufferView"]]
+    path = os.path.join(support.FOLDER, "image.png")
+    with open(path, "wb") as file:
+        file.write(b"".join(writer.parts)[start["byteOffset"]:][:start["byteLength"]])
+    image = bpy.data.images.load(path, check_existing=False)
+    pixels = numpy.array(image.pixels[:]).reshape(image.size[1], image.size[0], 4)
+    bpy.data.images.remove(image)
+    return pixels
+
+
+def test_other_alpha():
+    """The alpha of another image than the colour's goes into one texture with the colour."""
+    support.empty_scene()
+    colours = numpy.random.default_rng(1).uniform(0, 1, (4, 4, 4))
+    material = leaf("leaf", lambda n, l, i: i.outputs["Alpha"])
+    tree = material.node_tree
+    first = next(n for n in tree.nodes if n.type == "TEX_IMAGE").image
+    alphas = numpy.linspace(0, 1, 16).reshape(4, 4, 1) * numpy.ones(4)
+    first.pixels.foreach_set(numpy.float32(alphas).ravel())
+    element, notes, writer = exported(material)
+    assert element["alphaMode"] == "BLEND" and not notes, notes
+    found = pixels_of(writer, 0)
+    assert numpy.allclose(found[..., 3], alphas[..., 3], atol=1 / 255)
+    assert (found[..., :3] == 1).all()
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = image_of("colours", colours)
+    tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
+    element, notes, writer = exported(material)
+    found = pixels_of(writer, 0)
+    assert element["alphaMode"] == "BLEND" and not notes, notes
+    assert numpy.allclose(found[..., 3], alphas[..., 3], atol=1 / 255)
+    assert numpy.allclose(found[..., :3], colours[..., :3], atol=1 / 255)
+    node.image = image_of("larger", numpy.ones((8, 8, 4)))
+    element, notes, writer = exported(material)
+    assert "alphaMode" not in element and "has another size or UV map" in notes[0], notes
+
+
+def test_constant_alpha():
+    """The alpha of an image that only the colour of a surface reads does not count."""
+    support.empty_scene()
+    material = leaf("pane", lambda n, l, i: i.outputs["Alpha"])
+    tree = material.node_tree
+    principled = tree.nodes["Principled BSDF"]
+    tree.links.remove(principled.inputs["Alpha"].links[0])
+    principled.inputs["Alpha"].default_value = 0.5
+    node = next(n for n in tree.nodes if n.type == "TEX_IMAGE")
+    tree.links.new(node.outputs["Color"], principled.inputs["Base Color"])
+    element, _, writer = exported(material)
+    assert element["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.5
+    assert (pixels_of(writer, 0)[..., 3] == 1).all()
+
+
+def test_bright_texture():
+    """Emission of floats above 1 is divided by its maximum, which becomes the strength."""
+    support.empty_scene()
+    pixels = numpy.ones((4, 4, 4))
+    pixels[..., :3] = numpy.linspace(0.5, 20, 16).reshape(4, 4, 1)
+    material = support.add_material("screen", (0, 0, 0))
+    tree = material.node_tree
+    node, emission = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeEmission")
+    node.image = image_of("bright", pixels, float_buffer=True)
+    emission.inputs["Strength"].default_value = 3.0
+    tree.links.new(node.outputs["Color"], emission.inputs["Color"])
+    tree.links.new(emission.outputs[0], tree.get_output_node("ALL").inputs["Surface"])
+    element, notes, writer = exported(material)
+    strength = element["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"]
+    assert near(strength, 60) and near(element["emissiveFactor"], (1, 1, 1)), element
+    assert len(notes) == 1 and notes[0].startswith("image bright emits up to 20: "), notes
+    found = pixels_of(writer, 0)[..., 0]
+    linear = numpy.where(found <= 0.04045, found / 12.92, ((found + 0.055) / 1.055) ** 2.4)
+    assert numpy.allclose(60 * linear, 3 * pixels[..., 0], rtol=0.02), 60 * linear
+
+
+def test_outputs():
+    """An output of Cycles or of EEVEE alone is read and gets the map; none costs a note."""
+    for target in ("CYCLES", "EEVEE"):
+        support.empty_scene()
+        red = node_material("red", lambda n, l: shader(n, "BsdfDiffuse", (0.5, 0, 0)))
+        red.node_tree.get_output_node("ALL").target = target
+        assert red.node_tree.get_output_node("ALL") is None
+        support.add_mesh("plane", "plane", red)
+        support.set_world((1, 1, 1))
+        found, notes = addon.surface.read(red)
+        assert near(found.base.factor, (0.5, 0, 0)) and not notes, (found, notes)
+        support.bake()
+        node = red.node_tree.get_output_node(target).inputs["Surface"].links[0].from_node
+        assert addon.nodes.is_group(node, addon.nodes.LIGHT)
+    bare = bpy.data.materials.new("bare")
+    bare.use_nodes = True
+    bare.node_tree.nodes.clear()
+    assert addon.surface.read(bare)[1] == ["bare has no output node; it counts as black"]
+
+
 def many_materials():
     """A cube of six materials, one of each kind, in front of a camera, and a floor without any."""
     settings = support.empty_scene()
@@ -179,4 +345,5 @@ def test_removal():
     assert tuple(socket.default_value) == colour
 
 
-support.main(test_reading, test_many_materials, test_shared, test_occlusion, test_removal)
+support.main(test_reading, test_opacity, test_other_alpha, test_constant_alpha, test_bright_texture,
+             test_outputs, test_many_materials, test_shared, test_occlusion, test_removal)

@@ -50,6 +50,35 @@ def add_picture(material):
     tree.links.new(node.outputs["Color"], tree.nodes["Principled BSDF"].inputs["Base Color"])
 
 
+def add_turned_emission(o, material):
+    """The texture of `material` also emits, by a second UV map that is turned and larger."""
+    first = o.data.uv_layers.active
+    uvs = numpy.array([d.uv for d in first.data])
+    second = o.data.uv_layers.new(name="second", do_init=False)
+    second.data.foreach_set("uv", numpy.float32(2 * uvs[:, ::-1] + 0.1).ravel())
+    first.active_render = True
+    tree = material.node_tree
+    node, place = tree.nodes.new("ShaderNodeTexImage"), tree.nodes.new("ShaderNodeUVMap")
+    node.image, place.uv_map = bpy.data.images[f"waves {material.name}"], "second"
+    principled = tree.nodes["Principled BSDF"]
+    tree.links.new(place.outputs["UV"], node.inputs["Vector"])
+    tree.links.new(node.outputs["Color"], addon.surface.first_input(
+        principled, "Emission Color", "Emission"))
+    principled.inputs["Emission Strength"].default_value = 0.5
+
+
+def test_two_uv_maps():
+    """Colour and emission of one material by two UV maps."""
+    room()
+    red = bpy.data.materials["red"]
+    add_picture(red)
+    add_turned_emission(bpy.data.objects["monkey"], red)
+    baked, notes = support.bake_in(support.FOLDER)
+    share = support.close_share(support.render_command(baked), support.render_cycles())
+    print(f"two UV maps: {100 * share:.2f} % of pixels within 1/255; {notes}")
+    assert share >= 0.99
+
+
 def test_light():
     room()
     baked, _ = support.bake_in(support.FOLDER)
@@ -91,7 +120,6 @@ def test_mask():
     tree.links.new(node.outputs["Color"], principled.inputs["Base Color"])
     tree.links.new(node.outputs["Alpha"], step.inputs[0])
     tree.links.new(step.outputs[0], principled.inputs["Alpha"])
-    leaf.blend_method, leaf.alpha_threshold = "CLIP", 0.5
     support.add_mesh("plane", "leaf", leaf, size=1.6, location=(1.0, -1.4, 2),
                      rotation=(1.2, 0, 0.7))
     baked, notes = support.bake_in(support.FOLDER)
@@ -100,4 +128,4 @@ def test_mask():
     assert share >= 0.99
 
 
-support.main(test_light, test_textures, test_mask)
+support.main(test_light, test_textures, test_two_uv_maps, test_mask)
