@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names of the files that a written .gltf refers to: OUT.bin, OUT.bake.bin, OUT.ao.png, OUT.ao.1.png,
-// OUT.orm.png, OUT.orm.1.png, OUT.light.png (or .ktx2 …), OUT.light.1.png.
-// A file baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
+// Names of the files that a written .gltf refers to: OUT.bin, OUT.bake.bin, OUT.ao.png,
+// OUT.ao.1.png, OUT.orm.png, OUT.orm.1.png, OUT.light.png (or .ktx2 …), OUT.light.1.png. A file
+// baked again over itself refers to such names already: then "OUT-2", "OUT-3" …
 #include "formats/gltf/write/gltf_names.h"
 
 #include "base/file.h"
