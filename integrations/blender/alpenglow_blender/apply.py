@@ -211,8 +211,8 @@ class Applier:
                                   f"the map of the bake is {name}")
             polygons += cut.cut(target.data, name, loops, places)
         if polygons:
-            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are "
-                              "edges")
+            what, whose = ("polygon lies", "its") if polygons == 1 else ("polygons lie", "their")
+            self.notes.append(f"{polygons} {what} in two charts: {whose} diagonals are edges")
 
     def dress(self, targets, page):
         """Gives materials their nodes. A material that others use too is copied, and so is one for

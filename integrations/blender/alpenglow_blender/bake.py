@@ -110,14 +110,15 @@ class Bake:
             self.place.current_keys(self.items)
             with override:
                 if result is None:
-                    return f"{probes.show(bpy.context, self.out)} probes are in {self.out}"
+                    count = probes.show(bpy.context, self.out)
+                    return f"{count} {'probe is' if count == 1 else 'probes are'} in {self.out}"
                 applier = apply.Applier(bpy.context, self.items, result)
                 applier.apply()
         except Exception:
             self.kept = self.out if result is None else self.folder.keep(bpy.data.filepath)
             raise
         self.notes += applier.notes
-        return f"{applier.count} objects are baked"
+        return "1 object is baked" if applier.count == 1 else f"{applier.count} objects are baked"
 
     def interrupt(self):
         """Tells the command to end. A later step() sees its end."""

@@ -78,5 +78,6 @@ class ALPENGLOW_OT_remove(bpy.types.Operator):
         if count == 0:
             self.report({"WARNING"}, "no object of this file has a bake")
             return {"CANCELLED"}
-        self.report({"INFO"}, f"the bakes of {count} objects are removed")
+        self.report({"INFO"}, "the bake of 1 object is removed" if count == 1 else
+                    f"the bakes of {count} objects are removed")
         return {"FINISHED"}
