@@ -7,7 +7,7 @@ import traceback
 
 import bpy
 
-from . import apply, export, folders, glb, place, probes, run
+from . import apply, export, folders, glb, place, probes, repair, run
 
 RUNNING, DONE, FAILED, CANCELLED = "running", "done", "failed", "cancelled"
 FAULTS = (run.CommandError, export.ExportError, apply.ApplyError, glb.GlbError, OSError)
@@ -47,6 +47,8 @@ class Bake:
         path, _ = run.check_command(command)
         self.folder = folders.Folder()
         self.place = place.Place(context)
+        repairs = repair.repair()
+        self.is_touched = bool(repairs)
         exporter = export.Exporter(context, settings.scope == "SELECTED")
         scene = os.path.join(self.folder.path, "scene.glb")
         exporter.write(scene)
@@ -61,7 +63,7 @@ class Bake:
                 arguments += exporter.scene_options(self.folder.path)
             if exporter.has_kept_nodes():
                 arguments += ["--only", f"*[!{export.KEPT_END}]"]
-        self.items, self.notes = exporter.items, exporter.notes
+        self.items, self.notes = exporter.items, repairs + exporter.notes
         self._lap("export")
         self.job = run.Job(arguments + ["--progress", "json"])
 
@@ -138,7 +140,7 @@ class Bake:
             self._end(FAILED, self._plain(str(error)) + self._where_kept())
             return
         traceback.print_exception(type(error), error, error.__traceback__)
-        self.is_touched = self.job is not None
+        self.is_touched = self.is_touched or self.job is not None
         self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, "
                           f"and report what the console says{self._where_kept()}")
 

@@ -5,7 +5,7 @@ Cut polygons and their normals stay, and so do meshes that objects shared before
 
 import bpy
 
-from . import apply, bake, copies, export, nodes, uv
+from . import apply, bake, copies, export, nodes, repair, uv
 
 
 def local(blocks):
@@ -14,6 +14,7 @@ def local(blocks):
 
 def remove_bakes():
     """Returns the number of objects that a bake had changed, made or hidden."""
+    repair.repair()
     originals = [o for o in local(bpy.data.objects) if copies.show_original(o)]
     made = [o for o in local(bpy.data.objects) if export.SOURCE in o]
     for o in made:
