@@ -176,6 +176,8 @@ class Copies:
             heir = next((o for o in self.made if o.name.startswith(f"{name}.")), None)
             if heir is not None:
                 heir.name = name
+                if heir.type == "MESH":
+                    heir.data.name = name
 
     def hide_originals(self):
         layer = self.context.view_layer
