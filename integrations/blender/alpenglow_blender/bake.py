@@ -234,7 +234,7 @@ class ALPENGLOW_OT_bake(bpy.types.Operator):
         bake = Bake(context, context.scene.alpenglow, command_of(context))
         if bake.state != RUNNING:
             return report(self, bake)
-        Current.bake, Current.message, Current.notes = bake, "", []
+        Current.bake, Current.message, Current.notes = bake, "", list(bake.notes)
         self.timer = context.window_manager.event_timer_add(0.2, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

@@ -58,7 +58,8 @@ def test_bake_again():
             red = bpy.data.materials["red"]
             assert groups_of(red.node_tree) == [("Alpenglow Light", False),
                                                 ("Alpenglow Occlusion", False)]
-            light = next(n for n in red.node_tree.nodes if addon.nodes.is_group(n, "Alpenglow Light"))
+            light = next(n for n in red.node_tree.nodes
+                         if addon.nodes.is_group(n, addon.nodes.LIGHT))
             assert light.inputs["Original"].links[0].from_node.name == "Principled BSDF"
             _, notes = support.bake()
             assert not notes, notes
