@@ -134,7 +134,7 @@ class Applier:
 
     def __init__(self, context, items, result):
         self.context, self.items, self.result = context, items, result
-        self.notes, self.count = [], 0
+        self.notes, self.count, self.copied = [], 0, []
         self.copies = copies.Copies(context, items, self.take, self.notes)
 
     def apply(self):
@@ -156,6 +156,7 @@ class Applier:
         self.add_uv_maps(targets)
         self.dress([target for target, _ in targets], page)
         self.copies.hide_originals()
+        remove_replaced(self.copied)
         remove_unused(page)
         self.count = len(targets)
 
@@ -211,8 +212,8 @@ class Applier:
                                   f"the map of the bake is {name}")
             polygons += cut.cut(target.data, name, loops, places)
         if polygons:
-            self.notes.append(f"{polygons} polygons lie in two charts each: their diagonals are "
-                              "edges")
+            what, whose = ("polygon lies", "its") if polygons == 1 else ("polygons lie", "their")
+            self.notes.append(f"{polygons} {what} in two charts: {whose} diagonals are edges")
 
     def dress(self, targets, page):
         """Gives materials their nodes. A material that others use too is copied, and so is one for
@@ -239,6 +240,7 @@ class Applier:
             with_nodes(material, surface.BARE)
         elif is_shared or material.library is not None or has_stored_nodes(material):
             material = copy_of(material)
+            self.copied.append(material)
         if not material.use_nodes:
             with_nodes(material, material.diffuse_color[:3])
         tree = material.node_tree
@@ -283,8 +285,22 @@ def copy_of(material):
     made = material.copy()
     if export.SOURCE not in made:
         made[export.SOURCE] = material
-    made.name = f"{material.name.removesuffix('.baked')}.baked"
+    made.name = name_of_copy(made)
     return made
+
+
+def name_of_copy(material):
+    source = material[export.SOURCE]
+    return f"{(material if source is None else source).name.removesuffix('.baked')}.baked"
+
+
+def remove_replaced(copied):
+    """Removes copies of earlier bakes that no object has any more. The new get their names."""
+    for material in [m for m in bpy.data.materials if export.SOURCE in m and m.users == 0]:
+        if material.library is None and material not in copied:
+            bpy.data.materials.remove(material)
+    for material in copied:
+        material.name = name_of_copy(material)
 
 
 def has_stored_nodes(material):

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
 """A bake from scene to result: export, command, apply. It touches the scene only at its end."""
 
+import errno
 import os
 import time
 import traceback
 
 import bpy
 
-from . import apply, export, folders, glb, place, probes, run
+from . import apply, export, folders, glb, place, probes, repair, run, world
 
 RUNNING, DONE, FAILED, CANCELLED = "running", "done", "failed", "cancelled"
+DARK = "nothing lights the scene: "  # a refusal of the command begins with it
+FULL = os.strerror(errno.ENOSPC)
 FAULTS = (run.CommandError, export.ExportError, apply.ApplyError, glb.GlbError, OSError)
 
 
@@ -47,6 +50,8 @@ class Bake:
         path, _ = run.check_command(command)
         self.folder = folders.Folder()
         self.place = place.Place(context)
+        repairs = repair.repair()
+        self.is_touched = bool(repairs)
         exporter = export.Exporter(context, settings.scope == "SELECTED",
                                    settings.what != "OCCLUSION")
         scene = os.path.join(self.folder.path, "scene.glb")
@@ -62,7 +67,7 @@ class Bake:
                 arguments += exporter.scene_options(self.folder.path)
             if exporter.has_kept_nodes():
                 arguments += ["--only", f"*[!{export.KEPT_END}]"]
-        self.items, self.notes = exporter.items, exporter.notes
+        self.items, self.notes = exporter.items, repairs + exporter.notes
         self._lap("export")
         self.job = run.Job(arguments + ["--progress", "json"])
 
@@ -111,14 +116,15 @@ class Bake:
             self.place.current_keys(self.items)
             with override:
                 if result is None:
-                    return f"{probes.show(bpy.context, self.out)} probes are in {self.out}"
+                    count = probes.show(bpy.context, self.out)
+                    return f"{count} {'probe is' if count == 1 else 'probes are'} in {self.out}"
                 applier = apply.Applier(bpy.context, self.items, result)
                 applier.apply()
         except Exception:
             self.kept = self.out if result is None else self.folder.keep(bpy.data.filepath)
             raise
         self.notes += applier.notes
-        return f"{applier.count} objects are baked"
+        return "1 object is baked" if applier.count == 1 else f"{applier.count} objects are baked"
 
     def interrupt(self):
         """Tells the command to end. A later step() sees its end."""
@@ -135,21 +141,38 @@ class Bake:
         if self.job is not None:
             self.job.cancel()
         if isinstance(error, FAULTS):
-            self._end(FAILED, self._plain(str(error)) + self._where_kept())
+            self._end(FAILED, self._line_of(error) + self._where_kept())
             return
         traceback.print_exception(type(error), error, error.__traceback__)
-        self.is_touched = self.job is not None
+        self.is_touched = self.is_touched or self.job is not None
         self._end(FAILED, f"the add-on failed: {type(error).__name__}: {error}; undo this step, "
                           f"and report what the console says{self._where_kept()}")
+
+    def _line_of(self, error):
+        """One line on a fault, with a remedy that Blender has."""
+        line = self._plain(str(error))
+        if isinstance(error, OSError) and error.errno == errno.ENOSPC:
+            place = error.filename or (self.folder.path if self.folder else folders.parent())
+            line = f"{place}: {FULL}"
+        if FULL in line:
+            return f"{line}; free some of that disk, or choose another folder in Preferences > " \
+                   "File Paths > Temporary Files"
+        if line.startswith(DARK):
+            black = [note for note in self.notes if note.endswith(world.BLACK)]
+            return f"{DARK}{black[0]}; use an Environment Texture with an .exr or .hdr image, or " \
+                   "add a lamp" if black else \
+                   f"{DARK}no lamp shines, no material emits and the World is black; add a lamp, " \
+                   "or give the World a colour"
+        return line
 
     def _where_kept(self):
         return "" if self.kept is None else f"; the result of the command is kept in {self.kept}"
 
     def _plain(self, line):
-        """A line of the command without its own name and that of our file."""
+        """A line of the command without the name of our file."""
         if self.folder is not None:
             line = line.replace(os.path.join(self.folder.path, "scene.glb") + ": ", "")
-        return line.removeprefix("alpenglow: ")
+        return line
 
     def _end(self, state, message):
         self.state, self.message = state, message
@@ -212,7 +235,7 @@ class ALPENGLOW_OT_bake(bpy.types.Operator):
         bake = Bake(context, context.scene.alpenglow, command_of(context))
         if bake.state != RUNNING:
             return report(self, bake)
-        Current.bake, Current.message, Current.notes = bake, "", []
+        Current.bake, Current.message, Current.notes = bake, "", list(bake.notes)
         self.timer = context.window_manager.event_timer_add(0.2, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}

@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from . import export, nodes, uv
+from . import export, nodes, presence, uv
 
 HIDDEN = "alpenglow_hidden"  # property of an original: how it was hidden
 SHARED = {"LIGHT", "VOLUME", "CURVES", "GPENCIL", "GREASEPENCIL", "LIGHT_PROBE"}  # copied as is
@@ -100,8 +100,17 @@ class Copies:
         elif instance.object.type == inner.type and inner.type in export.SHAPED:
             mesh = instance.object.to_mesh()
             if mesh is not None and len(mesh.polygons):
-                self.lacks.setdefault(shown, f"{inner.name} was added during the bake")
+                self.note_lack(instance, mesh)
             instance.object.to_mesh_clear()
+
+    def note_lack(self, instance, mesh):
+        """Notes why a shape of an instancer has no result. One without area shows nothing."""
+        shown, inner = shown_of(instance), instance.object.original
+        reason = presence.fault_of(mesh, instance.matrix_world)
+        if key_of(instance) in {i.key for i in self.items if i.fate == export.KEPT}:
+            reason = "gets no map"
+        if reason != presence.NO_AREA:
+            self.lacks.setdefault(shown, f"{inner.name} {reason or 'was added during the bake'}")
 
     def leave_incomplete(self):
         """Leaves out originals that show something without a copy."""
@@ -167,6 +176,8 @@ class Copies:
             heir = next((o for o in self.made if o.name.startswith(f"{name}.")), None)
             if heir is not None:
                 heir.name = name
+                if heir.type == "MESH":
+                    heir.data.name = name
 
     def hide_originals(self):
         layer = self.context.view_layer

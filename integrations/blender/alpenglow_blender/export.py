@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from . import glb, images, lamps, surface, world
+from . import glb, images, lamps, presence, surface, world
 
 TURN = numpy.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=float)
 SHAPED = {"MESH", "CURVE", "SURFACE", "FONT", "META"}
@@ -131,9 +131,9 @@ class Exporter:
         replaced = replaced_names(self.context)
         self.add_shapes(replaced)
         if not any(item.fate != KEPT for item in self.items):
-            raise ExportError("nothing to bake: " + (
+            raise ExportError("nothing to bake: " + ("; ".join(dict.fromkeys(self.notes)) or (
                 "select objects with a surface, or bake what is visible" if self.selected_only
-                else "no visible object of this file has a surface"))
+                else "no visible object of this file has a surface")))
         if self.with_lamps:
             self.add_lamps(replaced)
         self.add_camera(self.context.scene.camera)
@@ -165,12 +165,16 @@ class Exporter:
         key, name = key_of(instance), shown.name
         if instance.is_instance and key[0] != shown.name_full:
             name = f"{instance.parent.name}/{name}"
+        if not presence.takes_part(mesh, instance.matrix_world, name, self.notes):
+            return
         kept = reason_to_keep((instance.parent if instance.is_instance else instance.object)
                               .original, self.context.view_layer)
         if kept is not None:
             fate = KEPT
             self.notes.append(f"{name} {kept[0]}: it shades and reflects, and keeps its look; "
                               f"{kept[1]}")
+        elif not presence.has_room(shown, mesh, name, self.notes):
+            fate = KEPT
         self.notes += unread(name, instance.object)
         primitives = self.primitives_of(instance.object, mesh)
         element = {"name": name, "primitives": primitives}

@@ -6,12 +6,21 @@ import os
 import shutil
 import tempfile
 
+import bpy
+
 try:
     import fcntl
 except ImportError:  # Windows
     fcntl = None
 
 PREFIX, LOCK = "alpenglow-bake-", "lock"
+
+
+def parent():
+    """The folder of Preferences > File Paths > Temporary Files, or else of the system. Blender has
+    a folder of its own in it, which goes with Blender."""
+    own = os.path.normpath(bpy.app.tempdir)
+    return os.path.dirname(own) if os.path.basename(own).startswith("blender_") else own
 
 
 def try_lock(file):
@@ -24,7 +33,7 @@ def try_lock(file):
 
 def remove_stale():
     """Removes folders of this user whose lock nobody holds. Those without a lock stay."""
-    for entry in os.scandir(tempfile.gettempdir()):
+    for entry in os.scandir(parent()):
         try:
             if not entry.name.startswith(PREFIX) or not entry.is_dir(follow_symlinks=False) or \
                     entry.stat(follow_symlinks=False).st_uid != os.getuid():
@@ -43,7 +52,7 @@ class Folder:
         self.lock = None
         if fcntl is not None:
             remove_stale()
-        self.path = tempfile.mkdtemp(prefix=PREFIX)
+        self.path = tempfile.mkdtemp(prefix=PREFIX, dir=parent())
         if fcntl is not None:
             part = os.path.join(self.path, "part")
             self.lock = open(part, "wb")  # pylint: disable=consider-using-with
@@ -59,10 +68,10 @@ class Folder:
         """Copies the baked scene and its maps beside the .blend, or to the temporary folder.
         Returns the path of the new folder, or None if no disk takes it."""
         name = os.path.splitext(os.path.basename(blend))[0] or "untitled"
-        for parent in (os.path.dirname(blend), tempfile.gettempdir()):
+        for place in (os.path.dirname(blend), parent()):
             try:
-                if parent:
-                    return self.copy_to(tempfile.mkdtemp(prefix=f"{name}.baked-", dir=parent))
+                if place:
+                    return self.copy_to(tempfile.mkdtemp(prefix=f"{name}.baked-", dir=place))
             except OSError:
                 continue
         return None

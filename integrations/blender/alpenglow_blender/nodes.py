@@ -14,6 +14,7 @@ import bpy
 LIGHT, OCCLUSION = "Alpenglow Light", "Alpenglow Occlusion"
 VERSION = 1  # of the groups: a file with older ones gets new groups
 MARK = "alpenglow"
+SOURCE, TARGET = "alpenglow_source_socket", "alpenglow_target_socket"  # [node, identifier]
 UV_MAP = "Alpenglow"
 BRIGHTEST_ALBEDO = 0.95
 
@@ -157,11 +158,21 @@ def pass_on(tree, link, socket):
     tree.links.new(source, socket).is_muted = is_muted
 
 
+def remember(node, target):
+    """Notes at a new group node which sockets it connects, for repair.py. target: the
+    input before which the node goes."""
+    node[TARGET] = [target.node.name, target.identifier]
+    if target.links and not target.links[0].is_muted:
+        source = target.links[0].from_socket
+        node[SOURCE] = [source.node.name, source.identifier]
+
+
 def show_light(tree, surface, image, intensity, uv_map):
     """Puts the group of light before the output. surface: of this material, read before."""
     target = output_of(tree).inputs["Surface"]
     x, y = target.node.location
     node = add_group(tree, LIGHT, build_light, (x, y + 250))
+    remember(node, target)
     if target.links:
         pass_on(tree, target.links[0], node.inputs["Original"])
     tree.links.new(add_image(tree, image, uv_map, (x - 300, y + 350)), node.inputs["Light"])
@@ -182,6 +193,7 @@ def show_occlusion(tree, surface, image, uv_map):
         if picture is None:
             picture = add_image(tree, image, uv_map, (x - 500, y + 250))
         node = add_group(tree, OCCLUSION, build_occlusion, (x - 220, y + 100))
+        remember(node, target)
         node.inputs["Color"].default_value = target.default_value
         if target.links:
             pass_on(tree, target.links[0], node.inputs["Color"])

@@ -39,7 +39,7 @@ class AlpenglowPreferences(bpy.types.AddonPreferences):
 
     command: bpy.props.StringProperty(
         name="Command", subtype="FILE_PATH",
-        description="The command alpenglow. Empty: the one on PATH")
+        description="The command alpenglow, as a path or a name on PATH. Empty: alpenglow")
 
     def draw(self, context):
         row = self.layout.row()

@@ -5,7 +5,7 @@ Cut polygons and their normals stay, and so do meshes that objects shared before
 
 import bpy
 
-from . import apply, bake, copies, export, nodes, uv
+from . import apply, bake, copies, export, nodes, repair, uv
 
 
 def local(blocks):
@@ -14,6 +14,7 @@ def local(blocks):
 
 def remove_bakes():
     """Returns the number of objects that a bake had changed, made or hidden."""
+    repair.repair()
     originals = [o for o in local(bpy.data.objects) if copies.show_original(o)]
     made = [o for o in local(bpy.data.objects) if export.SOURCE in o]
     for o in made:
@@ -78,5 +79,6 @@ class ALPENGLOW_OT_remove(bpy.types.Operator):
         if count == 0:
             self.report({"WARNING"}, "no object of this file has a bake")
             return {"CANCELLED"}
-        self.report({"INFO"}, f"the bakes of {count} objects are removed")
+        self.report({"INFO"}, "the bake of 1 object is removed" if count == 1 else
+                    f"the bakes of {count} objects are removed")
         return {"FINISHED"}

@@ -26,13 +26,17 @@ class CommandError(Exception):
 
 
 def find_command(wanted):
-    """The path of the command: `wanted`, or alpenglow on PATH where that is empty."""
+    """The path of the command. A bare name is found on PATH; an empty one is alpenglow."""
     path = os.path.expanduser(bpy.path.abspath(wanted.strip()))  # "//" is the folder of the .blend
-    if not path:
-        path = shutil.which("alpenglow")
+    name = path or "alpenglow"
+    if os.path.basename(name) == name:
+        path = shutil.which(name)
         if path is None:
-            raise CommandError("there is no command alpenglow on PATH; install it, or name it in "
+            raise CommandError(f"there is no command {name} on PATH; install it, or name it in "
                                "the preferences of the add-on")
+    if os.path.isdir(path):
+        raise CommandError(f"{path}: is a folder; name the command alpenglow itself in the "
+                           "preferences of the add-on")
     if not os.path.isfile(path):
         raise CommandError(f"{path}: there is no such file; name the command alpenglow in the "
                            "preferences of the add-on")
@@ -184,7 +188,7 @@ class Job:
         if status == 0:
             return
         reason = next((line for line in reversed(self.lines) if line.startswith("alpenglow: ")),
-                      self.lines[-1] if self.lines else "")
+                      self.lines[-1] if self.lines else "").removeprefix("alpenglow: ")
         raise CommandError(reason if status > 0 and reason else
                            f"the command {ending(status)}{': ' if reason else ''}{reason}")
 

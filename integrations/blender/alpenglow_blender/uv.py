@@ -44,7 +44,8 @@ def has_room(mesh, materials, name, notes):
     """Whether the mesh can take the map of a bake: Blender holds eight. A note says why not."""
     if ours(mesh) is not None or len(mesh.uv_layers) + needs_first(mesh, materials) < 8:
         return True
-    notes.append(f"{name} has eight UV maps; remove one and bake again")
+    notes.append(f"{name} has eight UV maps: it shades and reflects, and gets no map; "
+                 "remove one and bake again")
     return False
 
 

@@ -9,6 +9,7 @@ import os
 
 from . import images, nodes
 
+BLACK = "the sky is black"  # the end of a note
 ENDINGS = {b"\x76\x2f\x31\x01": ".exr", b"#?RA": ".hdr", b"#?RG": ".hdr"}
 
 
@@ -24,7 +25,7 @@ def sky_options(world, folder, notes):
         return []
     background = links[0].from_node
     if background.type != "BACKGROUND":
-        notes.append(f"world {world.name}: {background.name} is not read; the sky is black")
+        notes.append(f"world {world.name}: {background.name} is not read; {BLACK}")
         return []
     colour, strength = background.inputs["Color"], background.inputs["Strength"]
     if strength.links:
@@ -43,7 +44,9 @@ def even_sky(colour):
 def picture_sky(world, node, strength, folder, notes):
     image = node.image if node.type == "TEX_ENVIRONMENT" else None
     if image is None or node.projection != "EQUIRECTANGULAR":
-        notes.append(f"world {world.name}: {node.name} is not read; the sky is black")
+        is_empty = node.type == "TEX_ENVIRONMENT" and image is None
+        fault = "has no image" if is_empty else "is not read"
+        notes.append(f"world {world.name}: {node.name} {fault}; {BLACK}")
         return []
     if node.inputs["Vector"].links:
         notes.append(f"world {world.name}: nodes before {node.name} are not read; the image is not "
@@ -51,7 +54,7 @@ def picture_sky(world, node, strength, folder, notes):
     data = images.stored(image)
     ending = ENDINGS.get(data[:4])
     if ending is None:
-        notes.append(f"world {world.name}: {image.name} is no .exr or .hdr file; the sky is black")
+        notes.append(f"world {world.name}: {image.name} is no .exr or .hdr file; {BLACK}")
         return []
     if strength <= 0:
         return []

@@ -28,6 +28,20 @@ def color(value, name):
         raise ValueError(f"{name}: {value!r} is not a colour; give one number or three") from None
 
 
+def put(struct, field, value, name):
+    """Sets a number of a struct of the library. Faults name the argument of the caller."""
+    kind = dict(ffi.typeof(struct).fields)[field].type
+    is_real = kind.cname in ("float", "double")
+    most = 2 ** (8 * ffi.sizeof(kind)) - 1
+    wanted = "a number" if is_real else f"a whole number from 0 to {most}"
+    try:
+        setattr(struct, field, value)
+    except TypeError:
+        raise TypeError(f"{name}: {value!r}; give {wanted}") from None
+    except OverflowError:
+        raise ValueError(f"{name}: {value!r}; give {wanted}") from None
+
+
 def pointer(array):
     """The address of an array for a call, which the caller keeps alive."""
     return ffi.NULL if array is None else ffi.from_buffer(_KINDS[array.dtype.type], array)

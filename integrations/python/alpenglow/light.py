@@ -6,7 +6,7 @@ import os
 import numpy
 
 from . import image
-from .arrays import color, given
+from .arrays import color, put
 from .native import ffi, lib
 
 
@@ -28,6 +28,7 @@ def fill(lighting, context, sky, sun, sun_size, lamps):
     if sun is not None:
         _fill_sun(lighting.sun, sun)
     if sun_size is not None:
+        put(lighting.sun, "size", sun_size, "sun_size")
         lighting.sun.size = lighting.file_sun_size = math.radians(sun_size)
     if lamps is not None:
         kept.append(_make_lamps(lamps))

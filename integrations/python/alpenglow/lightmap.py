@@ -3,7 +3,7 @@
 import numpy
 
 from . import light
-from .arrays import view
+from .arrays import put, view
 from .native import as_dict, chars, ffi, lib
 
 _MAPS = {"ao": lib.ALP_MAP_AO, "light": lib.ALP_MAP_LIGHT, "bent": lib.ALP_MAP_BENT,
@@ -43,8 +43,8 @@ class Lightmap:
         address = lib.alp_lightmap_map_page(self.handle.pointer, choose(_MAPS, name, "map"), page, width,
                                             height)
         if address == ffi.NULL:
-            raise KeyError(f"no page {page} of {name}: this bake made {self.page_count} pages of "
-                           f"{', '.join(self.maps)}")
+            raise KeyError(f"no page {page} of {name}: this bake made {self.page_count} page"
+                           f"{'' if self.page_count == 1 else 's'} of {', '.join(self.maps)}")
         return view(address, (height[0], width[0], 4), numpy.float32, self.handle)
 
     @property
@@ -107,9 +107,11 @@ def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=No
     options = lib.alp_bake_options_default()
     options.maps = sum(choose(_MAPS, name, "maps") for name in set(maps))
     options.atlas.mode = choose(_ATLASES, atlas, "atlas")
-    options.atlas.size, options.atlas.texels_per_metre = size, texels_per_metre
-    options.occlusion.distance, options.occlusion.seed = ao_distance, seed
-    options.light.bounces = lib.ALP_BOUNCES_CONVERGE if bounces is None else bounces
+    put(options.atlas, "size", size, "size")
+    put(options.atlas, "texels_per_metre", texels_per_metre, "texels_per_metre")
+    put(options.occlusion, "distance", ao_distance, "ao_distance")
+    put(options.occlusion, "seed", seed, "seed")
+    put(options.light, "bounces", lib.ALP_BOUNCES_CONVERGE if bounces is None else bounces, "bounces")
     _set_samples(options, samples, error, bounces)
     kept = light.fill(options.light.lighting, scene.context, sky, sun, sun_size, lamps)
     kept += _set_outputs(options, maps, only, output, lightmap_as, maps_folder)
@@ -124,13 +126,15 @@ def bake(scene, *, maps=("ao",), size=1024, samples=None, error=None, bounces=No
 def _set_samples(options, samples, error, bounces):
     if samples is not None and error is not None:
         raise ValueError("samples and error: give one of them")
-    if error is not None and not error > 0.0:
-        raise ValueError(f"error: {error!r}; give a relative error, such as 0.01")
     if samples is not None:
-        options.occlusion.samples = options.light.samples = samples
+        put(options.occlusion, "samples", samples, "samples")
+        options.light.samples = samples
         return
     if error is not None:
-        options.sampling.error, options.occlusion.samples = error, MOST_SAMPLES
+        put(options.sampling, "error", error, "error")
+        if not error > 0.0:
+            raise ValueError(f"error: {error!r}; give a relative error, such as 0.01")
+        options.occlusion.samples = MOST_SAMPLES
     if bounces != 0:
         options.light.error = 0.01 if error is None else error
         options.light.bounded = error is None # the scene may need too many rays for 1 %

@@ -12,6 +12,7 @@ except ImportError as error:
                       "(pip install --no-build-isolation .)") from error
 
 _log = logging.getLogger("alpenglow")
+_WORDS = {"force it (-f)": "give overwrite=True", "--sky 1,1,1": "sky=1.0"}  # options of the command
 _running = threading.local()  # .call: the call that this thread is in
 
 
@@ -180,4 +181,7 @@ class Context:
         if result != lib.ALP_OK:
             code = text(lib.alp_result_name(result))
             kind = Cancelled if code == "CANCELLED" else Error
-            raise kind(code, text(lib.alp_context_message(self.handle.pointer)))
+            message = text(lib.alp_context_message(self.handle.pointer))
+            for option, keyword in _WORDS.items():
+                message = message.replace(option, keyword)
+            raise kind(code, message)

@@ -3,7 +3,7 @@
 import numpy
 
 from . import light
-from .arrays import given, pointer, view
+from .arrays import given, pointer, put, view
 from .lightmap import choose
 from .native import Context, as_dict, chars, ffi, lib
 
@@ -35,10 +35,11 @@ class Probes:
         rays: of each probe. sky, sun, sun_size, lamps, bounces, progress: as in Scene.bake.
         """
         options = lib.alp_probe_options_default()
-        options.spacing, options.rays, options.seed = spacing, rays, seed
+        for name, value in (("spacing", spacing), ("rays", rays), ("seed", seed)):
+            put(options, name, value, name)
         options.basis = choose(_BASES, basis, "basis")
         options.visibility, options.direct, options.one_sided = visibility, direct, one_sided
-        options.bounces = lib.ALP_BOUNCES_CONVERGE if bounces is None else bounces
+        put(options, "bounces", lib.ALP_BOUNCES_CONVERGE if bounces is None else bounces, "bounces")
         if bounds is not None:
             options.bounds_min, options.bounds_max = given(bounds, 3, "bounds").tolist()
         places = None if positions is None else given(positions, 3, "positions")

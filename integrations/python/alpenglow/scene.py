@@ -26,6 +26,8 @@ class Mesh:
             if array is not None and len(array) != len(self.positions):
                 raise ValueError(f"{what}: {len(array)} of {len(self.positions)} vertices")
         self.albedo, self.emission = color(albedo, "albedo"), color(emission, "emission")
+        if not all(0.0 <= part <= 1.0 for part in self.albedo):
+            raise ValueError(f"albedo: {albedo!r}; give values from 0 to 1")
         self.double_sided, self.name = double_sided, name
 
     def _fill(self, mesh):
@@ -65,6 +67,9 @@ class Scene:
     def from_meshes(cls, meshes, context=None):
         """Makes a scene of several meshes, whose triangles follow each other. Copies the arrays."""
         context, meshes = context or Context(), list(meshes)
+        if not any(len(mesh.positions) and len(mesh.triangles) for mesh in meshes):
+            raise ValueError(f"meshes: no triangle in {len(meshes)} mesh"
+                             f"{'' if len(meshes) == 1 else 'es'}; give at least one")
         structs = ffi.new("alp_mesh[]", len(meshes))
         kept = [mesh._fill(struct) for mesh, struct in zip(meshes, structs)]
         made = context.make("alp_scene", lib.alp_scene_destroy, (), lib.alp_scene_create_from_meshes,

@@ -21,7 +21,7 @@ def install():
     bpy.ops.preferences.addon_install(filepath=os.path.join(FOLDER, "alpenglow-blender.zip"))
     bpy.ops.preferences.addon_enable(module=MODULE)
     for part in ("apply", "bake", "copies", "cut", "export", "folders", "glb", "lamps", "nodes",
-                 "place", "probes", "removal", "run", "surface", "uv"):
+                 "place", "presence", "probes", "removal", "repair", "run", "surface", "uv"):
         importlib.import_module(f"{MODULE}.{part}")
     return sys.modules[MODULE]
 

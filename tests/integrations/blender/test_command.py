@@ -70,10 +70,15 @@ def test_broken_installs():
     assert "cannot be started" in refusal(not_a_program)
     path = os.environ["PATH"]
     os.environ["PATH"] = "/nonexistent"
-    assert "there is no command alpenglow on PATH" in refusal("")
+    assert refusal("").startswith("there is no command alpenglow on PATH")
+    assert refusal("alpenglow").startswith("there is no command alpenglow on PATH")
     os.environ["PATH"] = path
     line, works = addon.preferences.check("")
     assert works and line.startswith("alpenglow 0.1"), line
+    assert addon.preferences.check("alpenglow") == (line, True)
+    assert addon.preferences.check(os.path.expanduser("~")) == (
+        os.path.expanduser("~") + ": is a folder; name the command alpenglow itself in the "
+        "preferences of the add-on", False)
 
 
 def test_failing_bakes():
@@ -85,8 +90,68 @@ def test_failing_bakes():
         "OUT: disk full; free some"
     assert "ended well and wrote no baked.glb" in refusal(script("nothing", version + "exit 0"))
     assert "not a .glb" in refusal(script("junk", version + 'echo 12345678901234567890 >"$4"'))
+
+
+def add_sky(kind):
+    """A world whose sky is a texture."""
+    support.set_world((0, 0, 0))
+    tree = bpy.context.scene.world.node_tree
+    sky = tree.nodes.new(kind)
+    tree.links.new(sky.outputs[0], tree.nodes["Background"].inputs["Color"])
+    return sky
+
+
+def test_darkness():
+    """Without light the message names a remedy that Blender has."""
+    scene()
     bpy.data.objects.remove(bpy.data.objects["lamp"])
-    assert refusal("").startswith("nothing lights the scene: no lamp shines")
+    for what in ("LIGHT", "PROBES"):
+        bpy.context.scene.alpenglow.what = what
+        if what == "PROBES":
+            bpy.ops.wm.save_as_mainfile(filepath=os.path.join(support.FOLDER, "dark.blend"))
+        assert refusal("") == "nothing lights the scene: no lamp shines, no material emits and " \
+            "the World is black; add a lamp, or give the World a colour"
+    bpy.context.scene.alpenglow.what = "LIGHT"
+    remedy = "; use an Environment Texture with an .exr or .hdr image, or add a lamp"
+    for kind, fault in (("ShaderNodeTexSky", "Sky Texture is not read"),
+                        ("ShaderNodeTexEnvironment", "Environment Texture has no image")):
+        add_sky(kind)
+        name = bpy.context.scene.world.name
+        assert refusal("") == f"nothing lights the scene: world {name}: {fault}; the sky is " \
+            f"black{remedy}"
+    support.add_lamp("POINT", "lamp", 100, (2, 0, 3))
+    _, notes = support.bake()
+    assert f"world {name}: Environment Texture has no image; the sky is black" in notes, notes
+
+
+def test_temporary_folder():
+    """Files lie in the folder of the preferences. A full disk names the remedy."""
+    scene()
+    files = bpy.context.preferences.filepaths
+    place = os.path.join(support.FOLDER, "elsewhere")
+    os.mkdir(place)
+    before, files.temporary_directory = files.temporary_directory, place
+    try:
+        bake = addon.bake.Bake(bpy.context, bpy.context.scene.alpenglow, "")
+        assert os.path.dirname(bake.folder.path) == place, bake.folder.path
+        assert bake.wait(bpy.context) == addon.bake.DONE, bake.message
+        assert [n for n in os.listdir(place) if n.startswith("alpenglow-")] == []
+    finally:
+        files.temporary_directory = before
+    remedy = "No space left on device; free some of that disk, or choose another folder in " \
+        "Preferences > File Paths > Temporary Files"
+    whole = addon.export.Exporter.write
+    addon.export.Exporter.write = lambda self, path: (os.symlink("/dev/full", path),
+                                                      whole(self, path))
+    try:
+        message = refusal("")
+        assert message.startswith(os.path.join(TEMP, "alpenglow-bake-")), message
+        assert message.endswith(f": {remedy}"), message
+    finally:
+        addon.export.Exporter.write = whole
+    version = "if [ $1 = --version ]; then echo alpenglow 0.1.0; exit; fi\n"
+    full = "echo 'alpenglow: OUT: cannot write: No space left on device' >&2; exit 1"
+    assert refusal(script("disk", version + full)) == f"OUT: cannot write: {remedy}"
 
 
 def write_glb(document, binary=b""):
@@ -275,6 +340,7 @@ def test_fault_of_ours():
     assert not left_over() and addon.bake.Current.bake is None
 
 
-support.main(test_broken_installs, test_failing_bakes, test_broken_results, test_cut_result,
+support.main(test_broken_installs, test_failing_bakes, test_darkness,
+             test_temporary_folder, test_broken_results, test_cut_result,
              test_cancel, test_deaf_child, test_interrupt_without_waiting, test_killed_blender,
              test_interrupt, test_changed_scene, test_fault_of_ours, test_relative_command)

@@ -148,6 +148,25 @@ def test_modifiers():
     assert len(bpy.data.objects) == count and shows_map(object_of(f"{NAME}.baked"))
 
 
+def test_names_of_copies():
+    """Objects, meshes and materials of repeated bakes keep their names."""
+    settings = floor_and_lamp()
+    settings.size = 64
+    shared = support.add_material("red", (0.8, 0.1, 0.1))
+    support.add_mesh("cube", "grown", shared).modifiers.new("more", "SUBSURF")
+    support.add_mesh("cube", "inner", shared, location=(2, 0, 0)).modifiers.new("more", "SUBSURF")
+    for _ in range(3):
+        for name in ("grown", "inner"):
+            object_of(name).hide_render = False
+            object_of(name).hide_set(False)
+        support.bake()
+        assert object_of("grown.baked").data.name == "grown.baked"
+        assert object_of("grown.baked").data.materials[0].name == "red.baked"
+        names = sorted(m.name for m in bpy.data.materials)
+        assert names == ["grey", "red", "red.baked"], names
+        assert not [o.name for o in bpy.data.objects if o.name.endswith(".001")]
+
+
 def test_curves():
     floor_and_lamp()
     text = bpy.data.curves.new("text", "FONT")
@@ -297,5 +316,6 @@ def normal_at_corners(mesh):
     return found
 
 
-support.main(test_instances, test_scatter, test_modifiers, test_curves, test_selected, test_linked,
+support.main(test_instances, test_scatter, test_modifiers,
+             test_names_of_copies, test_curves, test_selected, test_linked,
              test_old_maps, test_cut_normals, test_cut_plain_normals, test_cut_coordinates)

@@ -39,6 +39,7 @@ def scene():
     settings = support.empty_scene()
     support.add_mesh("monkey", "monkey", support.add_material("m", (0.8, 0.2, 0.2)))
     support.add_mesh("plane", "floor", size=6, location=(0, 0, -1))
+    support.add_mesh("plane", "line", location=(0, 0, 2)).scale.x = 0
     support.add_lamp("POINT", "lamp", 100, (2, 0, 3))
     bpy.ops.ed.undo_push(message="scene")
     return settings
@@ -54,6 +55,7 @@ def test():
     while Current.bake is not None and "light" not in Current.bake.job.stage:
         yield
     job = Current.bake.job
+    assert Current.notes and Current.notes[0].startswith("line has no area"), "notes of the export"
     print(f"  {job.describe()}")
     assert press(bpy.ops.alpenglow.cancel) == {"FINISHED"}
     while Current.bake is not None:

@@ -213,7 +213,11 @@ class Failures(unittest.TestCase):
         self.refused("INVALID_ARGUMENT", "maps", square.bake, maps=(), size=16)
         with open("there.glb", "w", encoding="utf-8"):
             pass
-        self.refused("IO", "there.glb", square.bake, size=16, output="there.glb")
+        self.refused("IO", "there.glb: exists already .*; give overwrite=True or name",
+                     square.bake, size=16, output="there.glb")
+        self.refused("INVALID_ARGUMENT", r"for example sky=1\.0$", square.bake, maps="light", size=16)
+        self.assertRaisesRegex(KeyError, "this bake made 1 page of ao",
+                               square.bake(size=16, samples=4).map, "ao", 7)
 
     def test_arguments(self):
         square = Scene.from_arrays(*SQUARE)
@@ -225,6 +229,18 @@ class Failures(unittest.TestCase):
                 ("maps: 'aos'; give one of ao", square.bake, (), {"maps": "aos"}),
                 ("give one of them", square.bake, (), {"samples": 4, "error": 0.1}),
                 ("error: 0", square.bake, (), {"error": 0}),
+                ("size: -5; give a whole number from 0 to 4294967295", square.bake, (),
+                 {"size": -5}),
+                ("samples: -1; give a whole", square.bake, (), {"samples": -1}),
+                ("seed: -1; give a whole", square.bake, (), {"seed": -1}),
+                ("bounces: -1; give a whole", square.bake, (), {"bounces": -1}),
+                ("rays: -1; give a whole", Probes.bake, (square,), {"rays": -1}),
+                (r"albedo: 1\.5; give values from 0 to 1", Mesh, SQUARE, {"albedo": 1.5}),
+                (r"albedo: \(0, nan, 0\); give values", Scene.from_arrays, SQUARE,
+                 {"albedo": (0, math.nan, 0)}),
+                ("meshes: no triangle in 1 mesh; give at least one", Scene.from_arrays,
+                 (numpy.zeros((0, 3)), numpy.zeros((0, 3), int)), {}),
+                ("meshes: no triangle in 0 meshes", Scene.from_meshes, ([],), {}),
                 ("needs a sun", square.bake, (), {"maps": "light", "sky": "clear"}),
                 ("azimuth", square.bake, (), {"maps": "light", "sun": (1, 2)}),
                 ("candela", square.bake, (), {"maps": "light", "lamps": [(1, 2)]}),
@@ -236,10 +252,18 @@ class Failures(unittest.TestCase):
             with self.subTest(message):
                 self.assertRaisesRegex(ValueError, message, function, *arguments, **options)
         self.assertRaisesRegex(TypeError, "give integers", Mesh, SQUARE[0], [[0.0, 1.0, 2.0]])
+        for name, value in (("size", "big"), ("size", 2.5), ("samples", "many"), ("error", "low"),
+                            ("ao_distance", "far"), ("texels_per_metre", None), ("sun_size", "big"),
+                            ("bounces", "two")):
+            with self.subTest(name):
+                self.assertRaisesRegex(TypeError, f"^{name}: .*; give a ", square.bake,
+                                       **{name: value})
+        self.assertRaisesRegex(TypeError, "^spacing: 'wide'; give a number", Probes.bake, square,
+                               spacing="wide")
 
     def test_warnings_are_logged(self):
         with self.assertLogs("alpenglow", logging.WARNING) as logged:
-            Scene.from_arrays(*SQUARE, albedo=2.0, emission=-1.0, name="Größe")
+            Scene.from_arrays(*SQUARE, emission=-1.0, name="Größe")
         self.assertRegex("\n".join(logged.output), r"material 0 .*\(material-range\)")
 
 
