@@ -139,7 +139,7 @@ async function checkReport() {
   await context.close();
 }
 
-for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
+for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb', 'bare.glb']) await checkLight(scene);
 await checkLayers('layers', 'layers', 1);
 await checkLayers('pages', 'pages', 2);
 await checkLayers('moz8', 'twin', 2);

@@ -61,7 +61,14 @@ fs.writeFileSync('near.gltf', JSON.stringify(scene));
 scene.nodes.push({ translation: [0, 0, 524288], children: scene.scenes[0].nodes });
 scene.scenes[0].nodes = [scene.nodes.length - 1];
 fs.writeFileSync('far.gltf', JSON.stringify(scene));
+const bare = JSON.parse(fs.readFileSync('ao.gltf')); // no camera, and boxes without a material
+delete bare.cameras;
+for (const node of bare.nodes) delete node.camera;
+for (const mesh of bare.meshes.slice(5, 7)) for (const primitive of mesh.primitives) delete primitive.material;
+fs.writeFileSync('bare.gltf', JSON.stringify(bare));
 END
+"$alpenglow" bake bare.gltf --size 128 -q -o bare.glb --maps light --samples 64 --lightmap-as extras
+"$alpenglow" web bare.glb -q -o bare.glb.html
 for place in near far; do
     "$alpenglow" bake $place.gltf --size 64 -q -o $place.glb --maps light --samples 16
     "$alpenglow" probes $place.gltf -o $place.probes.json --spacing 0.2 -q

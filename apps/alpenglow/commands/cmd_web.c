@@ -58,18 +58,30 @@ static char *read_page(void)
     return page;
 }
 
-/// Loads the scene as all commands do, so that faults have the same messages. Finds its bounds.
+/// Finds the bounds of the scene, and the camera that render takes for a square picture.
+static alp_result measure_scene(const alp_scene *scene, web_scene *out)
+{
+    const alp_scene_info info = alp_scene_get_info(scene);
+    alp_render_options options = alp_render_options_default();
+    options.width = options.height = 512;
+    alp_camera camera;
+    const alp_result result = alp_render_find_camera(scene, &options, &camera);
+    for (int k = 0; k < 3 && result == ALP_OK; k++) {
+        out->bounds[0][k] = info.origin[k] + (double)info.bounds_min[k];
+        out->bounds[1][k] = info.origin[k] + (double)info.bounds_max[k];
+        out->eye[k] = info.origin[k] + (double)camera.position[k];
+        out->target[k] = info.origin[k] + (double)camera.target[k];
+        out->field_of_view = (double)camera.vertical_fov;
+    }
+    return result;
+}
+
+/// Loads the scene as all commands do, so that faults have the same messages.
 static int check_scene(const command_line *a, web_scene *out)
 {
     alp_scene *scene = NULL;
-    const int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
-    if (code == EXIT_DONE) {
-        const alp_scene_info info = alp_scene_get_info(scene);
-        for (int k = 0; k < 3; k++) {
-            out->bounds[0][k] = info.origin[k] + (double)info.bounds_min[k];
-            out->bounds[1][k] = info.origin[k] + (double)info.bounds_max[k];
-        }
-    }
+    int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
+    code = code == EXIT_DONE ? web_scene_end(out, measure_scene(scene, out)) : code;
     alp_scene_destroy(scene);
     return code;
 }

@@ -19,11 +19,14 @@ typedef struct web_file {
     size_t size;
 } web_file;
 
-/// Zeroed before web_scene_read, except context and bounds.
+/// Zeroed before web_scene_read, except the members up to field_of_view.
 typedef struct web_scene {
     alp_context *context; // borrowed; loads files, so that their faults have the same messages
-    const char *path;     // borrowed
     double bounds[2][3];  // lowest and highest corner, metres in the world of the file
+    double eye[3];        // place of the camera, metres
+    double target[3];     // a point ahead of the camera, metres
+    double field_of_view; // of a square picture, radians
+    const char *path;     // borrowed
     char *bytes;          // [size] of the asset
     size_t size;
     json_t *document;
