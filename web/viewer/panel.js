@@ -119,7 +119,8 @@ function addSlices({ slices, state, show }) {
 const allowedApart = 0.3;
 
 function notesOf({ found, apart }) {
-  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${Math.round(100 * apart)} %.`;
+  const amount = apart > 2 ? 'more than 200' : Math.round(100 * apart);
+  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${amount} %.`;
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
 

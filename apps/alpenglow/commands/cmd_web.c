@@ -76,12 +76,26 @@ static alp_result measure_scene(const alp_scene *scene, web_scene *out)
     return result;
 }
 
+/// Mean of the light map of the scene over its surfaces, all channels. 0: it has none.
+static double measure_light(const alp_scene *scene)
+{
+    alp_map_compare_options options = alp_map_compare_options_default();
+    options.map = ALP_MAP_LIGHT;
+    options.points = 16384;
+    alp_map_difference same = {0};
+    const alp_result result = alp_scene_compare_maps(scene, scene, &options, &same);
+    return result == ALP_OK ? same.mean_first : 0.0;
+}
+
 /// Loads the scene as all commands do, so that faults have the same messages.
 static int check_scene(const command_line *a, web_scene *out)
 {
     alp_scene *scene = NULL;
     int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
     code = code == EXIT_DONE ? web_scene_end(out, measure_scene(scene, out)) : code;
+    if (code == EXIT_DONE && a->values[OPTION_MAPS_FOLDER].given) {
+        out->light = measure_light(scene);
+    }
     alp_scene_destroy(scene);
     return code;
 }
@@ -119,7 +133,7 @@ static int read_scene(const command_line *a, message_log *messages, web_scene *s
     int code = check_scene(a, scene);
     code = code == EXIT_DONE ? web_scene_read(scene, a->operands[0], messages) : code;
     if (code == EXIT_DONE && values[OPTION_MAPS_FOLDER].given) {
-        code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text);
+        code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text, messages);
     }
     if (code == EXIT_DONE && values[OPTION_PROBES].given) {
         code = web_scene_read_probes(scene, values[OPTION_PROBES].text, messages);
@@ -142,6 +156,9 @@ static int run(const command_line *a, message_log *messages)
     alp_context *context = scene.context;
     char *page = read_page();
     int code = page != NULL ? read_scene(a, messages, &scene) : EXIT_FAILED;
+    if (code == EXIT_DONE) {
+        web_report_compare(a, &scene, messages);
+    }
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
     code = code == EXIT_DONE ? web_report_write(a) : code;
     web_scene_release(&scene);
