@@ -115,8 +115,7 @@ bool report_is_of_other(const char *report, const char *hash)
     size_t size = 0;
     char *text = web_read_bytes(report, &size);
     const char *at = text != NULL ? strstr(text, before_hash) : NULL;
-    const bool is_other =
-        at != NULL && strncmp(at + strlen(before_hash), hash, strlen(hash)) != 0;
+    const bool is_other = at != NULL && strncmp(at + strlen(before_hash), hash, strlen(hash)) != 0;
     free(text);
     return is_other;
 }

@@ -112,7 +112,8 @@ static int read_page(web_scene *scene, const char *folder, size_t index, unsigne
     char *path = allocate_or_exit(NULL, size);
     snprintf(path, size, "%s/%s%s%s%s", folder, prefix, layer->uri, number, ending);
     layer->bytes = web_read_file(path, &layer->size);
-    const int code = layer->bytes != NULL ? read_image(scene, path, layer, index < scene->pages) : EXIT_FAILED;
+    const int code =
+        layer->bytes != NULL ? read_image(scene, path, layer, index < scene->pages) : EXIT_FAILED;
     free(path);
     return code;
 }
@@ -154,8 +155,8 @@ static void list_layers(web_scene *scene, DIR *list)
     }
 }
 
-/// Warns of lights that together are far from the light of the file. The two means of one bake differ
-/// by some 7 %, because texels count alike in a map and areas in the scene.
+/// Warns of lights that together are far from the light of the file. The two means of one bake
+/// differ by some 7 %, because texels count alike in a map and areas in the scene.
 static void compare_light(const web_scene *scene, const char *folder, message_log *messages)
 {
     static const double APART = 1.5;

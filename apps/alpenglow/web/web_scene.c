@@ -241,7 +241,8 @@ int web_scene_check_place(const web_scene *scene, const char *path, const json_t
             return web_fail(path, text);
         }
     }
-    const char *ours = web_scene_hash(scene), *theirs = json_string_value(web_member(document, "scene", "hash"));
+    const char *ours = web_scene_hash(scene),
+               *theirs = json_string_value(web_member(document, "scene", "hash"));
     if (ours != NULL && theirs != NULL && strcmp(ours, theirs) != 0) {
         web_report(messages, ALP_LOG_WARNING, "web-other-scene", path,
                    "was made of another scene than this bake, or of another state of it; its light "

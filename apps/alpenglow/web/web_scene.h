@@ -37,8 +37,8 @@ typedef struct web_scene {
     web_file *layers; // [layer_count], maps of single lights by the light's name, page after page
     size_t layer_count;
     double layer_sum, layer_texels; // sum of their red, green and blue; covered texels of one light
-    json_t *probes;    // NULL: none
-    char *probe_bytes; // [probe_size], their light as KTX2
+    json_t *probes;                 // NULL: none
+    char *probe_bytes;              // [probe_size], their light as KTX2
     size_t probe_size;
     json_t *volume;  // cell, corner and size of each grid; NULL: none
     web_file *grids; // [grid_count], fluence of the cells: little-endian floats, RGB
