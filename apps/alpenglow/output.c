@@ -93,7 +93,9 @@ static int check_folder(const char *path)
     bool there = stat(folder, &about) == 0;
     if (!there || !S_ISDIR(about.st_mode) || access(folder, W_OK | X_OK) != 0) {
         int fault = there && !S_ISDIR(about.st_mode) ? ENOTDIR : errno;
-        code = fail_path(path, "its folder cannot be written: %s", strerror(fault));
+        code = fault == ENOENT
+                   ? fail_path(path, "its folder does not exist; make it first (mkdir -p)")
+                   : fail_path(path, "its folder cannot be written: %s", strerror(fault));
     }
     free(folder);
     free(end);

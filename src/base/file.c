@@ -146,8 +146,11 @@ static alp_result check_folder(alp_context *context, const char *path)
     char *folder = alpi_path_folder(context, end);
     alp_result result = folder == NULL ? ALP_ERROR_OUT_OF_MEMORY : ALP_OK;
     if (folder != NULL && access(folder[0] ? folder : ".", W_OK | X_OK) != 0) {
-        result = alpi_fail(context, ALP_ERROR_IO, "%s: its folder cannot be written: %s", path,
-                           strerror(errno));
+        result = errno == ENOENT
+                     ? alpi_fail(context, ALP_ERROR_IO,
+                                 "%s: its folder does not exist; make it first (mkdir -p)", path)
+                     : alpi_fail(context, ALP_ERROR_IO, "%s: its folder cannot be written: %s",
+                                 path, strerror(errno));
     }
     alpi_release(context, folder);
     alpi_release(context, end);

@@ -5,7 +5,7 @@ import { copyFile, readdir, stat } from 'node:fs/promises';
 import path from 'node:path';
 import { browser, check, compare, difference, exposure, faults, folder, label, open, ready, render, seen, shoot, toggle } from './web_pages.mjs';
 import { checkFailures, checkForeign, checkMessages } from './web_faults.mjs';
-import { checkFar, checkGrids, checkProbes, checkSlices } from './web_space.mjs';
+import { checkFar, checkGrids, checkProbes, checkSlices, checkSunSlice } from './web_space.mjs';
 
 /// The page of a scene with light, its exposure, and its switches.
 async function checkLight(scene) {
@@ -139,12 +139,13 @@ async function checkReport() {
   await context.close();
 }
 
-for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb']) await checkLight(scene);
+for (const scene of ['emissive.glb', 'moz.glb', 'extras.glb', 'exr.gltf', 'hdr.glb', 'units.glb', 'radiance.glb', 'blend.glb', 'bare.glb']) await checkLight(scene);
 await checkLayers('layers', 'layers', 1);
 await checkLayers('pages', 'pages', 2);
 await checkLayers('moz8', 'twin', 2);
 await checkBrightLayers();
 await checkSlices();
+await checkSunSlice();
 await checkGrids();
 await checkProbes();
 await checkCamera();

@@ -32,6 +32,11 @@ export async function checkMessages() {
   const note = await other.textContent('#notes');
   check('lights of another bake', /hold light of another bake/.test(note), note);
   await other.context().close();
+  const apart = await open('far_apart.html');
+  await ready(apart);
+  const capped = await apart.textContent('#notes');
+  check('lights far apart', / differ from this one by more than 200 %\.$/.test(capped), capped);
+  await apart.context().close();
 }
 
 /// A page must show one message in place of the scene and the panel.

@@ -43,6 +43,11 @@ export async function checkProbes() {
   await ready(page);
   await page.fill('#exposure', String(exposure));
   const { origin, spacing } = JSON.parse(await readFile(path.join(folder, 'cornell.probes.json'), 'utf8'));
+  const start = await Promise.all(['x', 'y', 'z'].map((axis) => page.inputValue(`#sphere-${axis}`)));
+  const entry = [eye[0], eye[1], origin[2] + Math.max(...spacing) / 4]; // the camera looks along z; a radius inside
+  const apart = Math.max(...entry.map((e, k) => Math.abs(e - start[k])));
+  check('sphere at first', apart < 0.003, `${start}, on the camera's axis at ${entry}`);
+  for (const [k, axis] of ['x', 'y', 'z'].entries()) await page.fill(`#sphere-${axis}`, String(origin[k] + spacing[k]));
   for (const index of [1, 2]) {
     await page.focus('#sphere-x');
     if (index === 2) await page.keyboard.press('End');
@@ -114,6 +119,26 @@ export async function checkSlices() {
   const dark = await shoot(page);
   await toggle(page, 'slices');
   check('slice without light', (await difference(page, await shoot(page), dark)) < 0.01, 'is not drawn');
+  await page.context().close();
+}
+
+/// A volume of 10,000 times the light has an exposure of its own, which the panel states.
+export async function checkSunSlice() {
+  const page = await open('sun.html');
+  await ready(page);
+  await page.fill('#exposure', String(exposure));
+  await toggle(page, 'slices');
+  const text = await page.textContent('#slice-value');
+  const [, shift] = /, shown ([0-9.]+) EV darker than the page$/.exec(text) ?? [];
+  const [grid] = JSON.parse(await readFile(path.join(folder, 'sun.lpv.json'), 'utf8')).grids;
+  const layer = Math.round((parseFloat(text) - grid.corner[2]) / grid.cell - 0.5);
+  const cell = [4, 11, layer];
+  const first = 3 * (cell[0] + 16 * (cell[1] + 16 * layer));
+  const wanted = grid.fluence.slice(first, first + 3).map((f) => displayed((2 ** -shift * f) / 4));
+  await page.locator('#controls > summary').click();
+  const got = await pixelOf(page, seenAt(cell.map((c, k) => grid.corner[k] + (c + 0.5) * grid.cell)).pixel);
+  const worst = Math.max(...wanted.map((w, k) => Math.abs(w - got[k])));
+  check('slice of a sun', worst <= 2 && Math.max(...wanted) < 250, `${got.slice(0, 3)}, ${wanted.map((w) => w.toFixed(1))} wanted; ${text}`);
   await page.context().close();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The camera: the first one of the file, or one that sees the whole scene; orbit by mouse, touch and
+// The camera: the first one of the file, or the one that the command chose; orbit by mouse, touch and
 // keys.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -9,12 +9,12 @@ function boundsOf(root) {
   return box.isEmpty() ? new THREE.Box3(new THREE.Vector3(-1, -1, -1), new THREE.Vector3(1, 1, 1)) : box;
 }
 
-function automatic(box) {
-  const camera = new THREE.PerspectiveCamera(40, 1, 0.01, 1000);
-  const radius = box.getSize(new THREE.Vector3()).length() / 2 || 1;
-  const distance = radius / Math.sin(THREE.MathUtils.degToRad(camera.fov / 2));
-  camera.position.set(0.5, 0.4, 1).normalize().multiplyScalar(distance).add(box.getCenter(new THREE.Vector3()));
-  camera.lookAt(box.getCenter(new THREE.Vector3()));
+/// The camera that alpenglow render chooses for a file without one.
+/// @param given { position, target, fov }: m, and degrees
+function automatic({ position, target, fov }) {
+  const camera = new THREE.PerspectiveCamera(fov, 1, 0.01, 1000);
+  camera.position.fromArray(position);
+  camera.lookAt(new THREE.Vector3().fromArray(target));
   return camera;
 }
 
@@ -47,11 +47,12 @@ function fit(camera, fov, width, height) {
   camera.updateProjectionMatrix();
 }
 
+/// @param given the camera for a file without one: { position, target, fov }
 /// @returns { camera, controls, fit(width, height), reset, turn, dolly }
-export function makeCamera(gltf, canvas) {
+export function makeCamera(gltf, given, canvas) {
   const box = boundsOf(gltf.scene);
   const size = box.getSize(new THREE.Vector3()).length() || 1;
-  const camera = fromFile(gltf) ?? automatic(box);
+  const camera = fromFile(gltf) ?? automatic(given);
   camera.near = Math.max(camera.near, size * 1e-4);
   camera.far = Math.max(size, camera.position.distanceTo(box.getCenter(new THREE.Vector3()))) * 10;
   const { fov } = camera;

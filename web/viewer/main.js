@@ -75,12 +75,12 @@ function drawAll(renderer, camera, scene, overlays) {
 }
 
 async function start(renderer) {
-  const { gltf, name, layers, probes, grids } = await loadScene(renderer);
+  const { gltf, name, camera, layers, probes, grids } = await loadScene(renderer);
   const bake = gltf.asset?.extras?.alpenglow;
   const scene = new THREE.Scene();
   scene.add(gltf.scene);
   removeLamps(gltf.scene, bake);
-  const view = makeCamera(gltf, canvas);
+  const view = makeCamera(gltf, camera, canvas);
   const materials = replaceMaterials(gltf.scene);
   const { dim, apart } = addLayers(layers, materials, renderer, scene, view.camera);
   blendScene(gltf.scene, THREE.ShaderChunk);

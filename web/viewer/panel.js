@@ -84,19 +84,22 @@ function addPlaces({ sphere }) {
     value.textContent = placeText(sphere.position[axis], slider.step);
   });
   document.addEventListener('pointermove', follow);
-  sphere.place(sphere.bounds.low.clone().lerp(sphere.bounds.high, 0.5));
+  sphere.place(sphere.start);
   follow();
 }
 
+/// Says that a slice has an exposure of its own.
+const shiftText = (shift) => (shift === 0 ? '' : `, shown ${Math.abs(shift).toFixed(2)} EV ${shift < 0 ? 'darker' : 'brighter'} than the page`);
+
 /// The switch of the slice, its grid if there are several, its axis, and its place.
-function addSlices({ slices, state, show }) {
+function addSlices({ slices, state, show, measure }) {
   if (slices === null) return;
   const [grid, axis, place, value] = ['slice-grid', 'slice-axis', 'slice-place', 'slice-value'].map(element);
   slices.grids.forEach(({ cell }, i) => grid.add(new Option(`cells of ${metres(cell)}`, i)));
   element('slice-grid-line').hidden = slices.grids.length < 2;
   const draw = () => {
     const found = slices.show(Number(grid.value), Number(axis.value), Number(place.value));
-    value.textContent = `${placeText(found.place, slices.grids[Number(grid.value)].cell)}, up to ${Number(found.brightest.toPrecision(3))} W/m²`;
+    value.textContent = `${placeText(found.place, slices.grids[Number(grid.value)].cell)}, up to ${Number(found.brightest.toPrecision(3))} W/m²${shiftText(found.shift)}`;
     place.setAttribute('aria-valuetext', value.textContent);
   };
   const start = () => {
@@ -112,6 +115,7 @@ function addSlices({ slices, state, show }) {
   axis.addEventListener('change', start);
   place.addEventListener('input', draw);
   axis.value = slices.axis;
+  slices.expose(measure());
   start();
 }
 
@@ -119,7 +123,8 @@ function addSlices({ slices, state, show }) {
 const allowedApart = 0.3;
 
 function notesOf({ found, apart }) {
-  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${Math.round(100 * apart)} %.`;
+  const amount = apart > 2 ? 'more than 200' : Math.round(100 * apart);
+  if (apart > allowedApart) return `The dimmers hold light of another bake: together they differ from this one by ${amount} %.`;
   return found.occlusion || found.light !== null ? '' : 'This file holds no baked map. It is shown in plain light.';
 }
 

@@ -74,13 +74,24 @@ function addDragging({ scene, sphere }, view, canvas, moved) {
   }
 }
 
+/// A place that the camera sees: a third of the way to its target, or where this way enters the grid.
+/// @param radius distance from the side of the grid
+function startOf({ camera, controls }, grid, radius) {
+  const point = camera.position.clone().lerp(controls.target, 1 / 3);
+  const ahead = new THREE.Ray(point, controls.target.clone().sub(point).normalize());
+  const entry = grid.containsPoint(point) ? null : ahead.intersectBox(grid, new THREE.Vector3());
+  return entry?.addScaledVector(ahead.direction, radius) ?? point;
+}
+
 /// @param given { info, texture }: the JSON of the probes, and their light
 /// @param changed called when the sphere has moved
-/// @returns { scene, bounds, position, place(point) }
+/// @returns { scene, bounds, position, start, place(point) }: place keeps the sphere in the grid
 export function makeSphere({ info, texture }, view, canvas, changed) {
   const low = new THREE.Vector3().fromArray(info.origin);
   const high = low.clone().add(new THREE.Vector3(...info.size.map((n, k) => (n - 1) * info.spacing[k])));
-  const radius = Math.max(high.distanceTo(low) / 25, Math.min(...info.spacing) / 4);
+  const largest = Math.max(high.distanceTo(low) / 25, Math.min(...info.spacing) / 4);
+  const start = startOf(view, new THREE.Box3(low, high), largest);
+  const radius = Math.min(largest, start.distanceTo(view.camera.position) / 10); // must not hide the scene
   const sphere = new THREE.Mesh(new THREE.SphereGeometry(radius, 48, 24), new THREE.MeshLambertMaterial());
   const light = new THREE.LightProbe();
   const scene = new THREE.Scene();
@@ -95,5 +106,5 @@ export function makeSphere({ info, texture }, view, canvas, changed) {
     changed();
   };
   addDragging({ scene, sphere }, view, canvas, place);
-  return { scene, bounds: { low, high }, position: sphere.position, place };
+  return { scene, bounds: { low, high }, position: sphere.position, start, place };
 }

@@ -50,12 +50,26 @@ function pageOf(name) {
   return Number(/^light (\d+)$/.exec(name)?.[1] ?? /\.light\.(\d+)\.\w+$/.exec(name)?.[1] ?? 0);
 }
 
-/// Light maps that three.js does not read itself: MOZ_lightmap, and the file of extras.lightmap.
+/// Makes surfaces without a material grey, as the library reads them; GLTFLoader makes them white. A bake
+/// gives them materials, with a mark in their extras.
+function readAbsentMaterials(json) {
+  const grey = { pbrMetallicRoughness: { baseColorFactor: [0.5, 0.5, 0.5, 1] } };
+  json.materials ??= [];
+  for (const material of json.materials) if (material.extras?.alpenglow === 'no material') Object.assign(material, grey);
+  const index = json.materials.push(grey) - 1;
+  for (const { primitives } of json.meshes ?? []) for (const primitive of primitives) primitive.material ??= index;
+}
+
+/// Reads light maps that three.js does not read itself: MOZ_lightmap, and the file of extras.lightmap.
 class LightMapPlugin {
   constructor(parser, floats) {
     this.name = 'MOZ_lightmap';
     this.parser = parser;
     this.floats = floats;
+  }
+
+  beforeRoot() {
+    readAbsentMaterials(this.parser.json);
   }
 
   imageName(texture) {
@@ -111,7 +125,7 @@ async function loadProbes(info, renderer) {
   return { info: { scale: 1, ...info }, texture: await new KTX2Loader().detectSupport(renderer).loadAsync(url) };
 }
 
-/// @returns { gltf, name, layers, probes, grids }
+/// @returns { gltf, name, camera, layers, probes, grids }
 export async function loadScene(renderer) {
   const about = JSON.parse(document.getElementById('scene').textContent);
   const manager = managerOf(fileUrls(about.files));
@@ -125,5 +139,5 @@ export async function loadScene(renderer) {
   loader.register((parser) => new LightMapPlugin(parser, floats));
   const gltf = await loader.parseAsync(bytesOf(document.querySelector('script.asset')).buffer, '');
   const [layers, probes] = await Promise.all([loadLayers(about, renderer), loadProbes(about.probes, renderer)]);
-  return { gltf, name: about.name, layers, probes, grids: loadGrids(about.volume) };
+  return { gltf, name: about.name, camera: about.camera, layers, probes, grids: loadGrids(about.volume) };
 }

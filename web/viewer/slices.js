@@ -26,6 +26,27 @@ function readLayer({ size, fluence }, axis, layer) {
   return { texels, brightest };
 }
 
+/// Mean radiance of the cells with light, all channels. 0: there are none.
+function meanOf({ fluence }) {
+  let [sum, count] = [0, 0];
+  for (let i = 0; i < fluence.length; i += 3) {
+    const cell = fluence[i] + fluence[i + 1] + fluence[i + 2];
+    sum += cell / (12 * Math.PI);
+    count += cell > 0;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+const farApart = 4; // EV
+
+/// The exposure of a grid's slices beside that of the page, EV: 0, or what makes the grid's mean 18 %
+/// grey if that is far from the page's exposure.
+function shiftOf(grid, exposure) {
+  const mean = meanOf(grid);
+  const shift = mean > 0 ? Math.log2(0.18 / mean) - exposure : 0;
+  return Math.abs(shift) > farApart ? shift : 0;
+}
+
 /// The place of the middle of a layer, in metres.
 const placeOf = ({ corner, cell }, axis, layer) => corner[axis] + (layer + 0.5) * cell;
 
@@ -69,9 +90,12 @@ function makeQuad() {
 
 /// @param grids [{ cell, corner, size, fluence }], the finest first   @param root the scene
 /// @param camera that will see them first   @param changed called after `show`
-/// @returns { scene, grids, axis, range(grid, axis), show(grid, axis, layer) }: the first axis; show returns
-/// { place, brightest }, m and W/m²
+/// @returns { scene, grids, axis, range(grid, axis), expose(exposure), show(grid, axis, layer) }: the first
+/// axis; expose takes the automatic exposure of the page, EV; show returns { place, brightest, shift }, m, W/m²
+/// and EV
 export function makeSlices(grids, root, camera, changed) {
+  let shifts = grids.map(() => 0);
+  const expose = (exposure) => (shifts = grids.map((grid) => shiftOf(grid, exposure)));
   const bounds = new THREE.Box3().setFromObject(root);
   const quad = makeQuad();
   const scene = new THREE.Scene();
@@ -83,13 +107,14 @@ export function makeSlices(grids, root, camera, changed) {
     const { texels, brightest } = readLayer(grid, axis, layer);
     quad.material.map?.dispose();
     quad.material.map = new THREE.DataTexture(texels, grid.size[u], grid.size[v], THREE.RGBAFormat, THREE.FloatType);
+    quad.material.color.setScalar(2 ** shifts[index]);
     quad.material.map.needsUpdate = true; // its filter is the nearest texel: a square is a cell
     quad.material.needsUpdate = true;
     quad.geometry.attributes.position.array.set(cornersOf(grid, axis, layer));
     quad.geometry.attributes.position.needsUpdate = true;
     quad.position.fromArray(grid.corner);
     changed();
-    return { place: placeOf(grid, axis, layer), brightest };
+    return { place: placeOf(grid, axis, layer), brightest, shift: shifts[index] };
   };
-  return { scene, grids, axis: facingAxis(camera), show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
+  return { scene, grids, axis: facingAxis(camera), expose, show, range: (index, axis) => rangeOf(grids[index], axis, bounds) };
 }

@@ -58,17 +58,43 @@ static char *read_page(void)
     return page;
 }
 
-/// Loads the scene as all commands do, so that faults have the same messages. Finds its bounds.
+/// Finds the bounds of the scene, and the camera that render takes for a square picture.
+static alp_result measure_scene(const alp_scene *scene, web_scene *out)
+{
+    const alp_scene_info info = alp_scene_get_info(scene);
+    alp_render_options options = alp_render_options_default();
+    options.width = options.height = 512;
+    alp_camera camera;
+    const alp_result result = alp_render_find_camera(scene, &options, &camera);
+    for (int k = 0; k < 3 && result == ALP_OK; k++) {
+        out->bounds[0][k] = info.origin[k] + (double)info.bounds_min[k];
+        out->bounds[1][k] = info.origin[k] + (double)info.bounds_max[k];
+        out->eye[k] = info.origin[k] + (double)camera.position[k];
+        out->target[k] = info.origin[k] + (double)camera.target[k];
+        out->field_of_view = (double)camera.vertical_fov;
+    }
+    return result;
+}
+
+/// Mean of the light map of the scene over its surfaces, all channels. 0: it has none.
+static double measure_light(const alp_scene *scene)
+{
+    alp_map_compare_options options = alp_map_compare_options_default();
+    options.map = ALP_MAP_LIGHT;
+    options.points = 16384;
+    alp_map_difference same = {0};
+    const alp_result result = alp_scene_compare_maps(scene, scene, &options, &same);
+    return result == ALP_OK ? same.mean_first : 0.0;
+}
+
+/// Loads the scene as all commands do, so that faults have the same messages.
 static int check_scene(const command_line *a, web_scene *out)
 {
     alp_scene *scene = NULL;
-    const int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
-    if (code == EXIT_DONE) {
-        const alp_scene_info info = alp_scene_get_info(scene);
-        for (int k = 0; k < 3; k++) {
-            out->bounds[0][k] = info.origin[k] + (double)info.bounds_min[k];
-            out->bounds[1][k] = info.origin[k] + (double)info.bounds_max[k];
-        }
+    int code = web_scene_end(out, alp_scene_load(out->context, a->operands[0], &scene));
+    code = code == EXIT_DONE ? web_scene_end(out, measure_scene(scene, out)) : code;
+    if (code == EXIT_DONE && a->values[OPTION_MAPS_FOLDER].given) {
+        out->light = measure_light(scene);
     }
     alp_scene_destroy(scene);
     return code;
@@ -107,7 +133,7 @@ static int read_scene(const command_line *a, message_log *messages, web_scene *s
     int code = check_scene(a, scene);
     code = code == EXIT_DONE ? web_scene_read(scene, a->operands[0], messages) : code;
     if (code == EXIT_DONE && values[OPTION_MAPS_FOLDER].given) {
-        code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text);
+        code = web_scene_read_layers(scene, values[OPTION_MAPS_FOLDER].text, messages);
     }
     if (code == EXIT_DONE && values[OPTION_PROBES].given) {
         code = web_scene_read_probes(scene, values[OPTION_PROBES].text, messages);
@@ -130,6 +156,9 @@ static int run(const command_line *a, message_log *messages)
     alp_context *context = scene.context;
     char *page = read_page();
     int code = page != NULL ? read_scene(a, messages, &scene) : EXIT_FAILED;
+    if (code == EXIT_DONE) {
+        web_report_compare(a, &scene, messages);
+    }
     code = code == EXIT_DONE ? write_page(page, &scene, a) : code;
     code = code == EXIT_DONE ? web_report_write(a) : code;
     web_scene_release(&scene);

@@ -109,6 +109,17 @@ int report_link_check(const char *report)
     return good ? EXIT_DONE : EXIT_FAILED;
 }
 
+bool report_is_of_other(const char *report, const char *hash)
+{
+    static const char before_hash[] = "<dt>Input hash</dt><dd>";
+    size_t size = 0;
+    char *text = web_read_bytes(report, &size);
+    const char *at = text != NULL ? strstr(text, before_hash) : NULL;
+    const bool is_other = at != NULL && strncmp(at + strlen(before_hash), hash, strlen(hash)) != 0;
+    free(text);
+    return is_other;
+}
+
 int report_link_write(const char *report, const char *page)
 {
     report_text r;

@@ -9,6 +9,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -59,8 +60,23 @@ static json_int_t light_number(const web_scene *scene, const char *key)
     return json_integer_value(web_member(bake, "light", key));
 }
 
+/// Adds the texels of a page of a light. @param is_first whether they are counted
+static void add_texels(web_scene *scene, alp_image *image, bool is_first)
+{
+    const alp_image_info info = alp_image_get_info(image);
+    const float *pixels = alp_image_floats(image);
+    const size_t count = (size_t)info.width * info.height, step = info.channels;
+    for (size_t i = 0; i < count && pixels != NULL && step == 4; i++, pixels += step) {
+        if (pixels[3] > 0.0f) {
+            scene->layer_sum += (double)pixels[0] + (double)pixels[1] + (double)pixels[2];
+            scene->layer_texels += is_first ? 1.0 : 0.0;
+        }
+    }
+}
+
 /// Whether the library reads the file, and it has the size of the light in the scene.
-static int check_image(const web_scene *scene, const char *path, const web_file *layer)
+/// @param is_first whether the file is of the first light
+static int read_image(web_scene *scene, const char *path, const web_file *layer, bool is_first)
 {
     if (is_scaled(layer)) {
         return web_fail(path, "its values are scaled; bake again with --maps-as exr");
@@ -76,6 +92,9 @@ static int check_image(const web_scene *scene, const char *path, const web_file 
                  "the folder of its own bake",
                  width, (long long)size);
         code = web_fail(path, text);
+    }
+    if (code == EXIT_DONE) {
+        add_texels(scene, image, is_first);
     }
     alp_image_destroy(image);
     return code;
@@ -93,7 +112,8 @@ static int read_page(web_scene *scene, const char *folder, size_t index, unsigne
     char *path = allocate_or_exit(NULL, size);
     snprintf(path, size, "%s/%s%s%s%s", folder, prefix, layer->uri, number, ending);
     layer->bytes = web_read_file(path, &layer->size);
-    const int code = layer->bytes != NULL ? check_image(scene, path, layer) : EXIT_FAILED;
+    const int code =
+        layer->bytes != NULL ? read_image(scene, path, layer, index < scene->pages) : EXIT_FAILED;
     free(path);
     return code;
 }
@@ -135,7 +155,28 @@ static void list_layers(web_scene *scene, DIR *list)
     }
 }
 
-int web_scene_read_layers(web_scene *scene, const char *folder)
+/// Warns of lights that together are far from the light of the file. The two means of one bake
+/// differ by some 7 %, because texels count alike in a map and areas in the scene.
+static void compare_light(const web_scene *scene, const char *folder, message_log *messages)
+{
+    static const double APART = 1.5;
+    const json_t *asset = json_object_get(scene->document, "asset");
+    const json_t *bake = web_member(asset, "extras", "alpenglow");
+    const char *units = json_string_value(web_member(bake, "light", "units"));
+    const bool is_over_pi = units != NULL && strcmp(units, "irradiance/pi") == 0;
+    const double own = is_over_pi ? acos(-1.0) * scene->light : scene->light;
+    const double mean = scene->layer_sum / (3.0 * scene->layer_texels);
+    if (own > 0.0 && scene->layer_texels > 0.0 && !(mean < APART * own && own < APART * mean)) {
+        char text[192];
+        snprintf(text, sizeof text,
+                 "is of another bake: its lights together have a mean of %.3g W/m2, the light of "
+                 "the scene %.3g; name the folder of its own bake",
+                 mean, own);
+        web_report(messages, ALP_LOG_WARNING, "web-other-maps", folder, text);
+    }
+}
+
+int web_scene_read_layers(web_scene *scene, const char *folder, message_log *messages)
 {
     int code = check_bake(scene);
     if (code != EXIT_DONE) {
@@ -155,6 +196,9 @@ int web_scene_read_layers(web_scene *scene, const char *folder)
     }
     for (size_t i = 0; i < scene->layer_count && code == EXIT_DONE; i++) {
         code = read_page(scene, folder, i, (unsigned)(i % scene->pages));
+    }
+    if (code == EXIT_DONE) {
+        compare_light(scene, folder, messages);
     }
     return code;
 }

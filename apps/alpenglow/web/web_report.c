@@ -46,6 +46,16 @@ int web_report_check(const command_line *a)
     return output_check(report, true); // -f is for the page: the report keeps all it holds
 }
 
+void web_report_compare(const command_line *a, const web_scene *scene, message_log *messages)
+{
+    const char *report = a->values[OPTION_REPORT].text, *hash = web_scene_hash(scene);
+    if (report != NULL && hash != NULL && report_is_of_other(report, hash)) {
+        web_report(messages, ALP_LOG_WARNING, "web-other-report", report,
+                   "is of another scene than this bake, or of another state of it; name the report "
+                   "of the same bake");
+    }
+}
+
 int web_report_write(const command_line *a)
 {
     const char *report = a->values[OPTION_REPORT].text;

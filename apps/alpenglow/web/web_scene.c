@@ -82,6 +82,12 @@ static bool is_known(const web_scene *scene, const char *uri)
     return false;
 }
 
+/// Whether a uri names a file on a network, as https://host/name does.
+static bool is_remote(const char *uri)
+{
+    return strncmp(uri, "//", 2) == 0 || strstr(uri, "://") != NULL;
+}
+
 /// Adds the file of a uri, unless the uri holds its data itself.
 static void add_file(web_scene *scene, const json_t *value, message_log *messages)
 {
@@ -96,7 +102,10 @@ static void add_file(web_scene *scene, const json_t *value, message_log *message
         exit(EXIT_FAILED);
     }
     web_decode_address(name);
-    if (name[0] == '/') {
+    if (is_remote(uri)) {
+        reason = "a page loads nothing from the network; put the file beside the scene and name it "
+                 "there";
+    } else if (name[0] == '/') {
         reason = "lies outside of the folder of the scene";
     } else if (find_file(scene->path, name, path, &reason)) {
         file.bytes = web_read_bytes(path, &file.size);
@@ -209,6 +218,13 @@ static int digits_of(const web_scene *scene, double place)
     return ratio > 1.0 && ratio < 1e12 ? 3 + (int)ceil(log10(ratio)) : 3;
 }
 
+const char *web_scene_hash(const web_scene *scene)
+{
+    const json_t *asset = json_object_get(scene->document, "asset");
+    const json_t *bake = web_member(asset, "extras", "alpenglow");
+    return json_string_value(json_object_get(bake, "input_hash"));
+}
+
 int web_scene_check_place(const web_scene *scene, const char *path, const json_t *document,
                           const double low[3], const double high[3], message_log *messages)
 {
@@ -225,10 +241,8 @@ int web_scene_check_place(const web_scene *scene, const char *path, const json_t
             return web_fail(path, text);
         }
     }
-    const json_t *asset = json_object_get(scene->document, "asset");
-    const json_t *bake = web_member(asset, "extras", "alpenglow");
-    const char *ours = json_string_value(json_object_get(bake, "input_hash"));
-    const char *theirs = json_string_value(web_member(document, "scene", "hash"));
+    const char *ours = web_scene_hash(scene),
+               *theirs = json_string_value(web_member(document, "scene", "hash"));
     if (ours != NULL && theirs != NULL && strcmp(ours, theirs) != 0) {
         web_report(messages, ALP_LOG_WARNING, "web-other-scene", path,
                    "was made of another scene than this bake, or of another state of it; its light "

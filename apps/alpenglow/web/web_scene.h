@@ -19,11 +19,15 @@ typedef struct web_file {
     size_t size;
 } web_file;
 
-/// Zeroed before web_scene_read, except context and bounds.
+/// Zeroed before web_scene_read, except the members up to light.
 typedef struct web_scene {
     alp_context *context; // borrowed; loads files, so that their faults have the same messages
-    const char *path;     // borrowed
     double bounds[2][3];  // lowest and highest corner, metres in the world of the file
+    double eye[3];        // place of the camera, metres
+    double target[3];     // a point ahead of the camera, metres
+    double field_of_view; // of a square picture, radians
+    double light;         // mean of the light map over its surfaces, units of the file; 0: unknown
+    const char *path;     // borrowed
     char *bytes;          // [size] of the asset
     size_t size;
     json_t *document;
@@ -32,8 +36,9 @@ typedef struct web_scene {
     unsigned pages;   // of the atlas of light, >= 1
     web_file *layers; // [layer_count], maps of single lights by the light's name, page after page
     size_t layer_count;
-    json_t *probes;    // NULL: none
-    char *probe_bytes; // [probe_size], their light as KTX2
+    double layer_sum, layer_texels; // sum of their red, green and blue; covered texels of one light
+    json_t *probes;                 // NULL: none
+    char *probe_bytes;              // [probe_size], their light as KTX2
     size_t probe_size;
     json_t *volume;  // cell, corner and size of each grid; NULL: none
     web_file *grids; // [grid_count], fluence of the cells: little-endian floats, RGB
@@ -50,8 +55,11 @@ int web_scene_end(const web_scene *scene, alp_result result);
 /// read, or lies outside of the folder of the asset, is left out with a warning.
 /// @return EXIT_DONE, or EXIT_FAILED after a message
 int web_scene_read(web_scene *scene, const char *path, message_log *messages);
-/// Reads the maps of single lights from a folder of bake --maps-dir, after web_scene_read.
-int web_scene_read_layers(web_scene *scene, const char *folder);
+/// Hash of the input of the bake, borrowed. NULL: the asset states none.
+const char *web_scene_hash(const web_scene *scene);
+/// Reads the maps of single lights from a folder of bake --maps-dir, after web_scene_read. Warns of
+/// lights whose mean together is over 1.5 times that of the file's light, or under two thirds.
+int web_scene_read_layers(web_scene *scene, const char *folder, message_log *messages);
 /// Reads baked probes.
 int web_scene_read_probes(web_scene *scene, const char *path, message_log *messages);
 /// Reads the volume of alpenglow lpv --volume.

@@ -3,6 +3,7 @@
 #include "output.h"
 #include "web/web_scene.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,11 +68,22 @@ static void write_names(FILE *stream, const web_file *files, size_t count, size_
     }
 }
 
+/// Writes the camera: metres, and degrees for the field of view.
+static void write_camera(FILE *stream, const web_scene *scene)
+{
+    const double *eye = scene->eye, *target = scene->target;
+    fprintf(stream, "{\"position\": [%.9g, %.9g, %.9g], \"target\": [%.9g, %.9g, %.9g]", eye[0],
+            eye[1], eye[2], target[0], target[1], target[2]);
+    fprintf(stream, ", \"fov\": %.6g}", scene->field_of_view * 180.0 / acos(-1.0));
+}
+
 void web_scene_write(FILE *stream, const web_scene *scene)
 {
     const char *slash = strrchr(scene->path, '/');
     fputs("<script type=\"application/json\" id=\"scene\">{\"name\": ", stream);
     write_json_text(stream, slash == NULL ? scene->path : slash + 1);
+    fputs(", \"camera\": ", stream);
+    write_camera(stream, scene);
     fputs(", \"files\": [", stream);
     write_names(stream, scene->files, scene->file_count, 1);
     fputs("], \"layers\": [", stream);

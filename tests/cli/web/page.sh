@@ -13,7 +13,7 @@ rm probe.*
 echo '== files'
 cp baked.gltf '<script>.gltf'
 alpenglow web '<script>.gltf' -q -o page.html
-grep -o '<script type="application/json".*' page.html
+grep -o '<script type="application/json".*' page.html | sed 's/"camera": {[^}]*}, //'
 grep -c '<script type="application/base64" class="asset">' page.html
 [ "$(grep -o 'class="file">[^<]*' page.html | head -1 | cut -d'>' -f2)" = "$(base64 -w0 baked.bin)" ] && echo 'the same bytes'
 echo '== outside'
@@ -26,6 +26,8 @@ for scene in out link; do
     alpenglow web in/$scene.gltf -q -o $scene.html 2>&1
     [ -e $scene.html ] && grep -c "$(base64 -w0 secret.png)" $scene.html
 done
+sed 's/baked.ao.png/https:\/\/host.invalid\/a.png/' baked.gltf >remote.gltf
+alpenglow web remote.gltf -q -o remote.html 2>&1
 echo '== no maps'
 echo '{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -40,6 +42,9 @@ $bake --texels-per-metre 60 -o pages.glb --maps-dir pages
 alpenglow web pages.glb -q -o pages.html --maps-dir pages
 grep -o '"layers".*' pages.html
 grep -c 'class="layer"' pages.html
+alpenglow bake builtin:cornell --maps light --samples 16 --size 64 --layers -q -o lamp.glb --lightmap-as moz \
+    --texels-per-metre 60 --lamp 0.27,0.3,0.1,2,2,2,1 --maps-dir lamp
+try web pages.glb -f -o pages.html --maps-dir lamp | sed "s/[0-9.]* W.m2, the light of the scene [0-9.]*/N W\/m2, the light of the scene N/"
 echo '== light in space'
 alpenglow lpv builtin:cornell --grid 4 --frames 1 -q --volume box.lpv.json
 alpenglow web pages.glb -q -o volume.html --volume box.lpv.json

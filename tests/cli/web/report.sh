@@ -39,6 +39,10 @@ links in/report.html
 sed 's|<p id="web">|<p id="web"><a href="in%2Fbaked.html">See this scene in the browser</a>|' first.html >report.html
 bake report.html
 links
+echo '== another scene'
+sed 's/<dt>Input hash<\/dt><dd>./&x/' first.html >other.html
+try web baked.glb -f -o page.html --report other.html
+links other.html
 echo '== faults'
 echo '<html>mine</html>' >mine.html
 echo '<html><p id="web">my text</p></html>' >alike.html
