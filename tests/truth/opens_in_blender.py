@@ -13,7 +13,7 @@ import mathutils
 import numpy
 
 warnings.simplefilter("ignore")
-numpy.bool = bool  # Blender 3.4's importer of glTF asks for it; numpy has dropped it
+numpy.bool = bool  # Blender 3.4's importer of glTF needs a name that numpy 1.24 lacks
 
 
 def load(path):

@@ -207,7 +207,7 @@ int web_scene_read(web_scene *scene, const char *path, message_log *messages)
     return EXIT_DONE;
 }
 
-/// Significant digits of a place, so that it is told to a hundredth of the scene's size.
+/// Significant digits of a place, to print it to a hundredth of the scene's size.
 static int digits_of(const web_scene *scene, double place)
 {
     double side = 0.0;
@@ -231,13 +231,13 @@ int web_scene_check_place(const web_scene *scene, const char *path, const json_t
     const double *first = scene->bounds[0], *last = scene->bounds[1];
     for (int k = 0; k < 3; k++) {
         if (high[k] < first[k] || low[k] > last[k]) {
-            const int told = digits_of(scene, fmax(fabs(low[k]), fabs(high[k])));
+            const int digits = digits_of(scene, fmax(fabs(low[k]), fabs(high[k])));
             const int own = digits_of(scene, fmax(fabs(first[k]), fabs(last[k])));
             char text[256];
             snprintf(text, sizeof text,
                      "lies outside of the scene, from %.*g to %.*g m along %c, where the scene "
                      "reaches from %.*g to %.*g m; make it of this scene",
-                     told, low[k], told, high[k], "xyz"[k], own, first[k], own, last[k]);
+                     digits, low[k], digits, high[k], "xyz"[k], own, first[k], own, last[k]);
             return web_fail(path, text);
         }
     }

@@ -90,7 +90,7 @@ class Copies:
                                  shown, inner, corners))
 
     def gather_other(self, instance):
-        """What an instancer shows beside its baked shapes: lamps, for one, which light the next
+        """Objects that an instancer shows beside its baked shapes. Lamps, for one, light the next
         bake."""
         shown, inner = shown_of(instance), instance.object.original
         if instance.object.type in SHARED and instance.object.type == inner.type:

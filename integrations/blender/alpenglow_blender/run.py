@@ -161,7 +161,7 @@ class Job:
         self.poll()
 
     def interrupt(self):
-        """Interrupts the command, which then writes nothing. poll() tells when it has ended."""
+        """Interrupts the command, which then writes nothing. poll() is True once it has ended."""
         if self.cancelled:
             return
         self.cancelled, self._deadline = True, time.monotonic() + PATIENCE

@@ -155,7 +155,7 @@ def read_exr(path):
 
 
 def exposed(picture, like):
-    """What a screen shows of a picture, in sRGB. White is what 1 % of the pixels of `like`
+    """A picture as a screen shows it, in sRGB. White is what 1 % of the pixels of `like`
     exceed."""
     white = numpy.quantile(like.max(axis=2), 0.99)
     assert white > 0, "a black picture"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What becomes of objects, and what the written .glb says of meshes and materials."""
+"""The fate of objects, and the meshes and materials of the written .glb."""
 
 import os
 import subprocess
@@ -76,8 +76,8 @@ def test_background():
 
 
 def warnings_of(path):
-    told = subprocess.run(["alpenglow", "info", path], capture_output=True, text=True, check=True)
-    return [line for line in (told.stdout + told.stderr).splitlines() if "normals are zero" in line]
+    ran = subprocess.run(["alpenglow", "info", path], capture_output=True, text=True, check=True)
+    return [line for line in (ran.stdout + ran.stderr).splitlines() if "normals are zero" in line]
 
 
 def test_normals():

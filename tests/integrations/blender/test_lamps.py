@@ -235,8 +235,8 @@ def test_file():
     assert numpy.allclose(matrix[:3, 3], (1, 3, -2)) and numpy.allclose(matrix[:3, 2], (0, 1, 0))
     light = document["extensions"]["KHR_lights_punctual"]["lights"][0]
     assert light == {"name": "sun", "type": "directional", "intensity": 4.0, "color": [1, 0.5, 0]}
-    told = subprocess.run(["alpenglow", "info", path], capture_output=True, text=True, check=True)
-    assert "warning" not in told.stdout + told.stderr, told.stdout + told.stderr
+    ran = subprocess.run(["alpenglow", "info", path], capture_output=True, text=True, check=True)
+    assert "warning" not in ran.stdout + ran.stderr, ran.stdout + ran.stderr
 
 
 support.main(test_formulas, test_point, test_spot, test_sun, test_area, test_scaled_area,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Instances, modifiers, curves, names, linked files: the object that takes the result, and whether
-it is the light of its place. Pictures by Cycles are compared with the command's (test_values.py)."""
+it is the light of its place. Pictures by Cycles are compared as in test_values.py."""
 
 import os
 import sys

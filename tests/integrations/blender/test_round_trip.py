@@ -13,7 +13,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import support  # noqa: E402
 
 SCENES = os.path.join(os.environ["ALPENGLOW_SHARED"], "scenes", "architecture")
-numpy.bool = bool  # Blender 3.4's importer of glTF asks for it; numpy has dropped it
+numpy.bool = bool  # Blender 3.4's importer of glTF needs a name that numpy 1.24 lacks
 
 if not os.path.isdir(SCENES):
     print(f"{SCENES} is absent: skipped (set ALPENGLOW_SHARED)", flush=True)
