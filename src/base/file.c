@@ -230,6 +230,26 @@ static alp_result open_temporary(alpi_file_writer *writer)
 
 // --- leftovers -----------------------------------------------------------------------------------
 
+/// Whether a process of this machine has ended. One that nobody waited for keeps its number: its
+/// state in /proc, behind the name in parentheses, is then Z.
+static bool has_ended(pid_t process)
+{
+    if (kill(process, 0) != 0) {
+        return errno == ESRCH;
+    }
+    char path[64], line[512] = "";
+    snprintf(path, sizeof path, "/proc/%ld/stat", (long)process);
+    FILE *stream = fopen(path, "r");
+    if (stream == NULL) {
+        return false;
+    }
+    const size_t size = fread(line, 1, sizeof line - 1, stream);
+    (void)fclose(stream);
+    line[size] = '\0';
+    const char *name_end = strrchr(line, ')');
+    return name_end != NULL && name_end[1] == ' ' && name_end[2] == 'Z';
+}
+
 /// Whether a file is a temporary one of `name`, by a process of this machine that has ended.
 static bool is_leftover(const char *file, const char *name, size_t length)
 {
@@ -240,8 +260,7 @@ static bool is_leftover(const char *file, const char *name, size_t length)
     }
     char *end;
     const long process = strtol(file + length + size, &end, 10);
-    return *end == '-' && process > 0 && process != (long)getpid() &&
-           kill((pid_t)process, 0) != 0 && errno == ESRCH;
+    return *end == '-' && process > 0 && process != (long)getpid() && has_ended((pid_t)process);
 }
 
 /// Removes temporary files of the writer's path that a killed process left. Only a bake with a

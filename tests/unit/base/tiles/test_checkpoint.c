@@ -3,6 +3,7 @@
 // of other bakes are refused by the name of the setting that differs.
 #include "test_support.h"
 
+#include "base/file.h"
 #include "base/tasks.h"
 #include "base/tiles/checkpoint.h"
 #include "test_obj.h"
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -362,4 +364,40 @@ TEST(folders_that_cannot_be_used)
     p = start("bake", "a 1\n");
     ASSERT_OK(context, run(&p)); // made with its parents
     assert_true(has_file("bake.state"));
+}
+
+/// Makes a temporary file of OUT, as a process leaves it that is killed while it writes.
+static const char *leave_part(const char *out, pid_t writer)
+{
+    static char name[2][1024];
+    static uint32_t next;
+    char *path = name[next++ % 2];
+    snprintf(path, sizeof *name, "%s.part-%ld-0", out, (long)writer);
+    test_write_text(path, "half");
+    return path;
+}
+
+/// A bake with a checkpoint removes what dead processes left of its outputs, also of those that
+/// nobody waited for, as in containers.
+TEST(parts_of_dead_processes_are_removed)
+{
+    new_folder();
+    process p = start("bake", "a 1\n");
+    ASSERT_OK(context,
+              alpi_checkpoint_open(context, &p.options, &alpi_context_tiles(context)->checkpoint));
+    char out[600];
+    snprintf(out, sizeof out, "%s/out.txt", test_folder());
+    const pid_t dead = fork();
+    if (dead == 0) {
+        _exit(0);
+    }
+    siginfo_t ended;
+    assert_int_equal(waitid(P_PID, (id_t)dead, &ended, WEXITED | WNOWAIT), 0); // a zombie stays
+    const char *left = leave_part(out, dead), *alive = leave_part(out, getppid());
+    ASSERT_OK(context, alpi_file_write(context, out, false, "text", 4));
+    assert_int_equal(access(left, F_OK), -1);
+    assert_int_equal(access(alive, F_OK), 0);
+    assert_int_equal(waitpid(dead, NULL, 0), dead);
+    alpi_checkpoint_close(alpi_context_tiles(context)->checkpoint, true);
+    *alpi_context_tiles(context) = (alpi_tiles){.checkpoint = NULL};
 }
