@@ -47,7 +47,7 @@ def read(path):
 
 
 def write_script(steps, folder):
-    """The commands as one shell script. What step N prints goes to the file N.out."""
+    """The commands as one shell script. The output of step N goes to the file N.out."""
     script = ["set -euo pipefail"]
     for number, (kind, _, name, text) in enumerate(steps):
         if kind == "sh":

@@ -72,6 +72,14 @@ def add_lamp(kind, name, energy, location, **properties):
     return added
 
 
+def floor_and_lamp():
+    """A new scene with the grey mesh "floor", 8 m wide, and a point lamp. Returns the settings."""
+    settings = empty_scene()
+    add_mesh("plane", "floor", add_material("grey", (0.6, 0.6, 0.6)), size=8)
+    add_lamp("POINT", "lamp", 200, (2, -2, 4))
+    return settings
+
+
 def add_camera(location, target, width=320, height=240):
     """The camera of the scene. The size of the picture is a part of its field of view."""
     render = bpy.context.scene.render

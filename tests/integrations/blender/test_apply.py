@@ -14,13 +14,6 @@ import support  # noqa: E402
 addon = support.install()
 
 
-def floor_and_lamp():
-    settings = support.empty_scene()
-    support.add_mesh("plane", "floor", support.add_material("grey", (0.6, 0.6, 0.6)), size=8)
-    support.add_lamp("POINT", "lamp", 200, (2, -2, 4))
-    return settings
-
-
 def only(name, shader):
     """A scene of one object, whose material has one shader."""
     settings = support.empty_scene()
@@ -71,7 +64,7 @@ def nodes_of(material):
 
 def test_stored_nodes():
     """Nodes of a material that does not use them stay."""
-    floor_and_lamp()
+    support.floor_and_lamp()
     grey = bpy.data.materials["grey"]
     grey.use_nodes, grey.diffuse_color = False, (0.1, 0.9, 0.1, 1)
     before = support.state_of_material(grey)
@@ -87,7 +80,7 @@ def test_stored_nodes():
 
 def test_nodes_go():
     """nodes.remove leaves links, muted ones too, and values as they were."""
-    settings = floor_and_lamp()
+    settings = support.floor_and_lamp()
     settings.what = "BOTH"
     tree = bpy.data.materials["grey"].node_tree
     colour = tree.nodes.new("ShaderNodeRGB")
@@ -114,7 +107,7 @@ def instanced(*inner, name="inst"):
 
 
 def test_incomplete_instancer():
-    settings = floor_and_lamp()
+    settings = support.floor_and_lamp()
     shown = instanced(support.add_mesh("cube", "a", size=0.5), support.add_mesh("cube", "c"))
     bake = addon.bake.Bake(bpy.context, settings, "")
     bpy.data.objects["c"].data = bpy.data.objects["floor"].data
@@ -127,7 +120,7 @@ def test_incomplete_instancer():
 
 def test_other_instances():
     """Volumes and Grease Pencil of an instanced collection get copies; hair keeps its object."""
-    floor_and_lamp()
+    support.floor_and_lamp()
     bpy.ops.object.gpencil_add(type="STROKE")
     strokes = bpy.context.object
     bpy.ops.object.volume_add()
@@ -137,7 +130,7 @@ def test_other_instances():
     assert shown.hide_render and not shown.visible_get()
     made = {o.type for o in bpy.data.objects if o.get("alpenglow_source") == shown}
     assert made == {"MESH", "GPENCIL", "VOLUME"}, made
-    floor_and_lamp()
+    support.floor_and_lamp()
     fur = support.add_mesh("cube", "fur", location=(0, 0, 1))
     fur.modifiers.new("more", "SUBSURF")
     fur.modifiers.new("hair", "PARTICLE_SYSTEM")
@@ -149,7 +142,7 @@ def test_other_instances():
 
 def test_background_scene():
     """Objects of a scene in the background are not in the view layer."""
-    floor_and_lamp()
+    support.floor_and_lamp()
     behind = bpy.data.scenes.new("behind")
     text = bpy.data.objects.new("text", bpy.data.curves.new("text", "FONT"))
     text.data.body = "A"
@@ -165,7 +158,7 @@ def test_background_scene():
 
 def test_renamed():
     """Renamed objects and another scene in the window do not matter."""
-    settings = floor_and_lamp()
+    settings = support.floor_and_lamp()
     inner = support.add_mesh("cube", "a", size=0.5)
     shown = instanced(inner)
     bend = support.add_mesh("cube", "grown", location=(2, 0, 1))
@@ -189,7 +182,7 @@ def test_renamed():
 
 def test_kept_result():
     """The result of a bake whose scene has gone lies beside the .blend."""
-    settings = floor_and_lamp()
+    settings = support.floor_and_lamp()
     bpy.ops.wm.save_as_mainfile(filepath=os.path.join(support.FOLDER, "Wohnung.blend"))
     settings = bpy.context.scene.alpenglow
     bake = addon.bake.Bake(bpy.context, settings, "")
@@ -202,7 +195,7 @@ def test_kept_result():
 
 
 def test_parents_and_flags():
-    floor_and_lamp()
+    support.floor_and_lamp()
     parent = bpy.data.objects.new("parent", None)
     parent.rotation_euler, parent.scale, parent.location = (0.3, 0.2, 1), (1, 2, 1), (1, 0, 1)
     bpy.context.scene.collection.objects.link(parent)
@@ -226,7 +219,7 @@ def test_parents_and_flags():
 
 def test_no_uv_map():
     """Textures of a mesh without UV maps read the same place after a bake."""
-    floor_and_lamp()
+    support.floor_and_lamp()
     mesh = bpy.data.objects["floor"].data
     while mesh.uv_layers:
         mesh.uv_layers.remove(mesh.uv_layers[0])
@@ -252,7 +245,7 @@ def test_no_uv_map():
 
 def test_map_of_user():
     """A UV map of the user that has our name stays."""
-    floor_and_lamp()
+    support.floor_and_lamp()
     mesh = bpy.data.objects["floor"].data
     mesh.uv_layers[0].name = "Alpenglow"
     mesh.uv_layers[0].data.foreach_set("uv", numpy.arange(8, dtype=numpy.float32))

@@ -14,13 +14,6 @@ import support  # noqa: E402
 addon = support.install()
 
 
-def floor_and_lamp():
-    settings = support.empty_scene()
-    support.add_mesh("plane", "floor", support.add_material("grey", (0.6, 0.6, 0.6)), size=8)
-    support.add_lamp("POINT", "lamp", 200, (2, -2, 4))
-    return settings
-
-
 def far():
     support.add_mesh("cube", "odd").location.x = 1e20
 
@@ -54,7 +47,7 @@ def is_untouched(name):
 
 def test_left_out():
     for add, fault in FAULTS.items():
-        floor_and_lamp()
+        support.floor_and_lamp()
         add()
         message, notes = support.bake()
         print(f"  {add.__name__}: {notes}")
@@ -88,7 +81,7 @@ def instanced(*inner):
 def test_instances():
     """An instance without area shows nothing. Another fault keeps the instancer."""
     for add in (flat, broken):
-        floor_and_lamp()
+        support.floor_and_lamp()
         add()
         shown = instanced(support.add_mesh("cube", "good", location=(0, 0, 2)),
                           bpy.data.objects["odd"])
@@ -108,7 +101,7 @@ def with_eight_maps(o):
 def test_eight_uv_maps():
     """A mesh without room for one more map gets no texels, and still shades."""
     for has_modifier in (False, True):
-        settings = floor_and_lamp()
+        settings = support.floor_and_lamp()
         settings.what = "OCCLUSION"
         full = with_eight_maps(support.add_mesh("cube", "full", location=(0, 0, 1)))
         if has_modifier:
